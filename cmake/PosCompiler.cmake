@@ -1,0 +1,29 @@
+# Language, warnings and instrumentation, shared by everything that is ours.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(POS_CCACHE ccache)
+if(POS_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${POS_CCACHE})
+endif()
+
+# Our own targets link this; dependencies come in as SYSTEM and stay quiet.
+add_library(pos_warnings INTERFACE)
+# -Wno-restrict: GCC 12 warns falsely about std::string concatenation (GCC bug 105651).
+target_compile_options(pos_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wno-restrict -Werror)
+
+if(POS_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O1)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(POS_COVERAGE)
+  add_compile_options(--coverage -fprofile-abs-path)
+  add_link_options(--coverage)
+endif()

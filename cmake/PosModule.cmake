@@ -1,0 +1,27 @@
+# pos_module(<name> [DEPENDS <modules>...] [PUBLIC <libraries>...] [PRIVATE <libraries>...])
+#
+# One static library pos_<name> (alias pos::<name>) from libpos/src/<name>/*.cpp with the headers
+# libpos/include/pos/<name>/. DEPENDS are our own modules; the allowed arrows are in tests/structure/.
+function(pos_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/${name}/*.cpp)
+  set(target pos_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:pos_warnings> ${ARG_PRIVATE})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(pos::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  foreach(dependency IN LISTS ARG_DEPENDS)
+    target_link_libraries(${target} ${scope} pos_${dependency})
+  endforeach()
+  target_link_libraries(${target} ${scope} ${ARG_PUBLIC})
+  set_property(GLOBAL APPEND PROPERTY POS_MODULES ${target})
+endfunction()

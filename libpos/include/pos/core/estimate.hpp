@@ -1,0 +1,49 @@
+#pragma once
+/// Where an estimator believes the vehicle is.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "pos/core/manifold.hpp"
+#include "pos/core/pose3.hpp"
+#include "pos/core/stamp.hpp"
+
+namespace pos {
+
+/// A pose with its covariance. Tangent order [x y z (map axes), rotation (body axes)], m and rad.
+/// A planar estimator fills x, y, yaw and leaves the rows of z, roll and pitch at zero.
+struct Estimate {
+  Stamp stamp;
+  Pose3 T_map_body;
+  Matrix<6, 6> covariance = Matrix<6, 6>::Zero();
+
+  /// Planar part [x, y, yaw]. For a level body the yaw row is the tangent's last.
+  Matrix<3, 3> planarCovariance() const;
+};
+
+/// A planar belief as an Estimate at height z.
+Estimate planarEstimate(Stamp stamp, const Pose2& mean, const Matrix<3, 3>& covariance, double z = 0.0);
+
+/// One line of an estimator's state beyond the pose: a bias, a scale, the number of particles.
+struct NamedValue {
+  std::string name;  ///< with its unit: "range_offset_m"
+  double value = 0.0;
+  double sigma = 0.0;  ///< 0 where it has none
+};
+
+/// What an estimator tells of itself; a snapshot, in a fixed order for a given estimator.
+using Diagnostics = std::vector<NamedValue>;
+
+/// Reference trajectory, stamps strictly increasing.
+struct TruthPose {
+  Stamp stamp;
+  Pose3 T_map_body;
+};
+struct Truth {
+  std::vector<TruthPose> poses;
+  bool has_z = true;
+  bool has_yaw = true;
+};
+
+}  // namespace pos

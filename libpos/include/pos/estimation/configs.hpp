@@ -1,0 +1,152 @@
+#pragma once
+/// The configuration of every estimator: plain structs, SI units, defaults beside each field. io binds them
+/// to YAML.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pos/core/belief.hpp"
+#include "pos/core/measurement.hpp"
+#include "pos/core/pose2.hpp"
+
+namespace pos::estimation {
+
+/// What is known of the pose at the first measurement.
+enum class StartMode {
+  Known,           ///< position and heading, with the sigmas given
+  UnknownHeading,  ///< position as given, heading anything
+  Unknown,         ///< nothing: from the first ranges, or uniformly over the map
+};
+
+struct StartConfig {
+  StartMode mode = StartMode::Known;
+  Pose2 pose;                   ///< map frame; yaw is ignored for UnknownHeading, all for Unknown
+  double position_sigma = 0.1;  ///< m, per axis
+  double yaw_sigma = 0.05;      ///< rad
+};
+
+/// Where a tag sits on the body (m, FLU; origin = the body frame of the log).
+struct TagMount {
+  TagId id = 0;
+  Eigen::Vector3d p_body = Eigen::Vector3d::Zero();
+};
+
+/// Planar odometry noise, grown with the motion (a density per metre turned) and with time.
+struct OdometryNoise {
+  double distance_per_sqrt_m = 0.03;   ///< m / sqrt(m): along track, random walk over distance
+  double lateral_per_sqrt_m = 0.01;    ///< m / sqrt(m): across track
+  double yaw_per_sqrt_m = 0.01;        ///< rad / sqrt(m)
+  double yaw_per_sqrt_rad = 0.03;      ///< rad / sqrt(rad turned)
+  double yaw_per_sqrt_s = 0.0005;      ///< rad / sqrt(s)
+  double position_per_sqrt_s = 0.001;  ///< m / sqrt(s)
+};
+
+struct DeadReckoningConfig {
+  /// `odometry`: increments as they come.
+  enum class Variant { Odometry } variant = Variant::Odometry;
+  StartConfig start;
+  OdometryNoise noise;
+};
+
+/// How a gate opens again when it keeps rejecting what may well be true.
+struct GateConfig {
+  double confidence = 0.997;  ///< a range beyond this chi-square quantile is gated
+  double open_after = 5.0;    ///< s without any agreement before the gate opens and the state is inflated
+  double agreement_fraction =
+      0.34;                ///< agreement = at least this fraction of the anchors heard in that time pass
+  double inflation = 4.0;  ///< factor on the pose covariance each time the gate opens
+};
+
+/// A slowly changing unknown of a sensor: its start value, how sure that is, and how it wanders.
+/// Sigma 0 holds it at its value (the state does not exist).
+struct CalibrationState {
+  double value = 0.0;
+  double sigma = 0.0;
+  double walk_per_sqrt_s = 0.0;
+};
+
+struct RangeOdometryConfig {
+  enum class Motion {
+    Odometry,          ///< driven by odometry increments
+    ConstantVelocity,  ///< no odometry: velocity and yaw rate are states
+  } motion = Motion::Odometry;
+  StartConfig start;
+  OdometryNoise odometry_noise;
+  double acceleration_density = 0.5;      ///< m/s^2 * sqrt(s), constant-velocity motion
+  double yaw_acceleration_density = 0.3;  ///< rad/s^2 * sqrt(s), constant-velocity motion
+  double max_speed = 15.0;                ///< m/s, sets the prior of the velocity states
+  std::vector<TagMount> tags;             ///< before what the log says of the tag's place
+  double body_height = 0.0;               ///< m, z of the body frame in the map
+  double range_sigma = 0.1;               ///< m
+  bool use_gnss = false;                  ///< fuse satellite fixes too (needs the map's origin)
+  CalibrationState range_scale{1.0, 0.0, 0.0};
+  CalibrationState range_offset{0.0, 0.0, 0.0};   ///< m
+  CalibrationState anchor_offset{0.0, 0.0, 0.0};  ///< m, one state per anchor
+  CalibrationState gyro_bias{0.0, 0.0, 0.0};      ///< rad/s
+  CalibrationState wheel_scale{1.0, 0.0, 0.0};
+  CalibrationState latency{0.0, 0.0, 0.0};  ///< s, the ranges tell of this long ago
+  GateConfig gate;
+  int heading_hypotheses = 12;  ///< filters started when the heading is unknown
+};
+
+struct RangeLikelihood {
+  double sigma = 0.2;                ///< m, of a good range
+  double outlier_probability = 0.1;  ///< share of ranges that say nothing about the distance
+  double range_max = 100.0;          ///< m, an outlier lies uniformly in [0, range_max]
+  double bias_sigma = 0.0;  ///< m, slowly varying offset per anchor, tracked beside the particles; 0 = none
+};
+
+struct ScanLikelihood {
+  int beams = 60;      ///< beams used, spread evenly over the scan
+  double sigma = 0.1;  ///< m, of the distance to the nearest obstacle
+  double outlier_probability = 0.2;
+  double distance_max = 1.0;  ///< m, distances saturate here
+  double tempering = 1.0;     ///< exponent on the scan's likelihood, for beams that are not independent
+};
+
+struct ParticleCount {
+  int min = 500;
+  int max = 20000;
+  double kld_epsilon = 0.02;   ///< Fox 2003: bound on the KL divergence
+  double kld_z = 2.33;         ///< normal quantile of the confidence, 2.33 = 99 %
+  double bin_position = 0.25;  ///< m
+  double bin_yaw = 0.1745;     ///< rad
+};
+
+struct MclConfig {
+  StartConfig start;
+  OdometryNoise odometry_noise;
+  std::vector<TagMount> tags;
+  double body_height = 0.0;  ///< m
+  bool use_ranges = true;
+  bool use_scans = false;
+  RangeLikelihood range;
+  ScanLikelihood scan;
+  ParticleCount particles;
+  double resample_below = 0.5;  ///< resample when the effective size falls below this share
+  double injection_slow =
+      0.001;  ///< augmented MCL decay rates (Thrun, Burgard, Fox 2005, table 8.3); 0 = none
+  double injection_fast = 0.1;
+  std::uint64_t seed = 1;
+};
+
+/// MRPT's own particle filter with the same inputs.
+struct MrptMclConfig {
+  StartConfig start;
+  std::vector<TagMount> tags;
+  double body_height = 0.0;  ///< m
+  bool use_ranges = true;
+  bool use_scans = false;
+  double range_sigma = 0.17;  ///< m, MRPT's rangeStd
+  int particles = 2000;
+  bool adaptive_size = true;  ///< KLD
+  int beams = 60;
+  std::uint64_t seed = 1;
+};
+
+using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig>;
+
+}  // namespace pos::estimation
