@@ -6,7 +6,7 @@
 
 namespace pos {
 
-constexpr double kPi = std::numbers::pi;
+inline constexpr double kPi = std::numbers::pi;
 
 constexpr double radians(double degrees) {
   return degrees * (kPi / 180.0);

@@ -9,7 +9,7 @@ namespace pos {
 
 /// A place in a text file; line and column count from 1, 0 = unknown.
 struct FilePlace {
-  std::string file;
+  std::string file = {};
   int line = 0;
   int column = 0;
 };
@@ -17,14 +17,15 @@ struct FilePlace {
 /// "file:line:column", shorter where parts are unknown.
 std::string toString(const FilePlace& place);
 
-/// What a complaint tells its reader. Empty fields are left out of the message.
+/// What a complaint tells its reader, written with designated initialisers. Empty fields are left out of the
+/// message.
 struct Complaint {
-  std::string what;        ///< one sentence: what is wrong
-  FilePlace place;         ///< where
-  std::string key;         ///< key path: "estimators[1].range_std_m"
-  std::string got;         ///< the value found
-  std::string expected;    ///< type, unit, range or choices
-  std::string suggestion;  ///< what to do
+  std::string what = {};        ///< one sentence: what is wrong
+  FilePlace place = {};         ///< where
+  std::string key = {};         ///< key path: "estimators[1].range_std_m"
+  std::string got = {};         ///< the value found
+  std::string expected = {};    ///< type, unit, range or choices
+  std::string suggestion = {};  ///< what to do
 };
 
 /// The complaint as a short paragraph of text, one field a line.
@@ -34,7 +35,7 @@ class Error : public std::runtime_error {
  public:
   explicit Error(const Complaint& complaint)
       : std::runtime_error(toString(complaint)), complaint_(complaint) {}
-  explicit Error(const std::string& what) : Error(Complaint{what, {}, {}, {}, {}, {}}) {}
+  explicit Error(const std::string& what) : Error(Complaint{.what = what}) {}
   const Complaint& complaint() const { return complaint_; }
   virtual int exitCode() const { return 1; }
 

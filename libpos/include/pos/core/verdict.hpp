@@ -16,8 +16,8 @@ enum class Verdict : std::uint8_t {
   NotInitialised,  ///< the estimator does not yet know where it is
 };
 
-constexpr std::array kVerdicts{Verdict::Applied,     Verdict::Gated,      Verdict::TooOld,
-                               Verdict::Unsupported, Verdict::Degenerate, Verdict::NotInitialised};
+inline constexpr std::array kVerdicts{Verdict::Applied,     Verdict::Gated,      Verdict::TooOld,
+                                      Verdict::Unsupported, Verdict::Degenerate, Verdict::NotInitialised};
 
 std::string_view name(Verdict verdict);
 
