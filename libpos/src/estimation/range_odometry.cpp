@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kCoastIntervals =
     2.0;  // odometry older than this many of its intervals says nothing any more
-constexpr int kRestartAfterOpenings = 3;  // in a row without any agreement: the vehicle is somewhere else
+constexpr int kRestartAfterOpenings =
+    1;  // no agreement even with the gate open: the vehicle is somewhere else
 
 constexpr std::array kTermNames{"velocity_x_m_per_s",  "velocity_y_m_per_s", "yaw_rate_rad_per_s",
                                 "gyro_bias_rad_per_s", "wheel_scale",        "range_scale",

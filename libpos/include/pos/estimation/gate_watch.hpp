@@ -2,6 +2,7 @@
 /// Keeps a gate from locking the filter out: notices when a gate rejects nearly everything for a while.
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -28,14 +29,21 @@ class GateWatch {
 
  private:
   struct Heard {
-    Stamp last{};
-    std::optional<Stamp> passed;
+    Stamp stamp;
+    AnchorId anchor;
+    bool passed;
   };
-  bool agreement(Stamp since) const;
-  int heardSince(Stamp since) const;
+  struct Tally {
+    int heard = 0;
+    int passed = 0;
+  };
+  void note(const Heard& heard);
+  void dropOlderThan(Stamp stamp);
+  bool agreement() const;
 
   GateConfig config_;
-  std::map<AnchorId, Heard> heard_;
+  std::deque<Heard> window_;           // the last `open_after` seconds
+  std::map<AnchorId, Tally> tallies_;  // of the window, kept as it moves
   std::optional<Stamp> disagreeing_since_;
   int rejected_ = 0;
   int openings_ = 0;
