@@ -200,7 +200,7 @@ IngestReport RangeOdometry::gather(Stamp stamp, const BeaconRange& range) {
     bank_ = RangeBank(std::move(hypotheses));
     start_.reset();
     state_stamp_ = stamp;
-    return {.verdict = Verdict::Applied};
+    return {.verdict = Verdict::Applied, .event = "first position found from the ranges"};
   }
   return refusal(Verdict::NotInitialised, "gathering ranges for the first position");
 }
@@ -219,22 +219,23 @@ IngestReport RangeOdometry::correct(Stamp stamp, const BeaconRange& range, const
     if (&h == best) told = correction;
   }
   bank_.settle();
-  if (watch_.opens(stamp, range.anchor, told.verdict)) openGate(stamp);
-  return reportOf(told);
+  IngestReport report = reportOf(told);
+  if (watch_.opens(stamp, range.anchor, told.verdict)) report.event = openGate(stamp);
+  return report;
 }
 
 /// Most ranges have been rejected for a while: admit that the pose may be wrong, or start over.
-void RangeOdometry::openGate(Stamp stamp) {
+std::string_view RangeOdometry::openGate(Stamp stamp) {
   ++gate_openings_;
-  if (watch_.openings() > kRestartAfterOpenings) return restart(stamp);
+  if (watch_.openings() > kRestartAfterOpenings) {
+    restart(stamp);
+    return "no agreement with the gate open: starting over from the ranges";
+  }
   for (RangeHypothesis& h : bank_.hypotheses()) {
     h.belief.covariance.topLeftCorner<3, 3>() *= config_.gate.inflation;
     h.belief.covariance.diagonal().head<2>().array() += square(config_.range_sigma);
   }
-}
-
-IngestReport RangeOdometry::take(Stamp, const GnssFix&) {
-  return refusal(Verdict::Unsupported, "use_gnss is off");
+  return "most ranges rejected for a while: gate opened, pose made less sure";
 }
 
 std::optional<Estimate> RangeOdometry::estimateAt(Stamp stamp) const {

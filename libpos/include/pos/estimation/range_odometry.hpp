@@ -29,7 +29,6 @@ class RangeOdometry final : public Estimator {
  private:
   IngestReport take(Stamp stamp, const OdometryIncrement& odometry);
   IngestReport take(Stamp stamp, const BeaconRange& range);
-  IngestReport take(Stamp stamp, const GnssFix& fix);
   template <class Other>
   IngestReport take(Stamp, const Other&) {
     return {.verdict = Verdict::Unsupported, .reason = "range_odometry has no use for this kind of reading"};
@@ -45,7 +44,7 @@ class RangeOdometry final : public Estimator {
   std::optional<RangeGeometry> geometryOf(const BeaconRange& range, double age) const;
   IngestReport gather(Stamp stamp, const BeaconRange& range);
   IngestReport correct(Stamp stamp, const BeaconRange& range, const RangeGeometry& geometry);
-  void openGate(Stamp stamp);
+  std::string_view openGate(Stamp stamp);
 
   RangeOdometryConfig config_;
   std::shared_ptr<const map::TunnelMap> map_;
