@@ -16,7 +16,8 @@ void collect(const TableCore& table, const std::string& prefix, std::set<std::st
   for (const OptionRow& row : table.rows) {
     keys.insert(prefix + row.option.key);
     if (!row.table) continue;
-    collect(*row.table, prefix + row.option.key + (row.option.kind == Option::Kind::List ? "[]." : "."), keys);
+    collect(*row.table, prefix + row.option.key + (row.option.kind == Option::Kind::List ? "[]." : "."),
+            keys);
     for (const Alternative& alternative : row.table->alternatives) collect(*alternative.table, "", keys);
   }
 }
@@ -60,8 +61,9 @@ TEST(OptionsDocs, EveryKeyIsExplainedInASentence) {
 
 TEST(OptionsDocs, ReferenceRowShowsUnitRangeAndDefault) {
   const std::string reference = markdownReference(runOptions());
-  EXPECT_THAT(reference,
-              HasSubstr("| `sequencer.lag_s` | number | s | 0 to 3600 | `0` | How late a measurement may come"));
+  EXPECT_THAT(
+      reference,
+      HasSubstr("| `sequencer.lag_s` | number | s | 0 to 3600 | `0` | How late a measurement may come"));
   EXPECT_THAT(reference, HasSubstr("| `schema` | whole number |  | 1 | required |"));
   EXPECT_THAT(reference, HasSubstr("## `type: range_odometry`"));
   EXPECT_THAT(reference, HasSubstr("| `range_scale.value` | number |  | 0.5 to 2 | `1` |"));
@@ -74,7 +76,6 @@ TEST(OptionsDocs, SchemaRefusesOtherKeys) {
   EXPECT_THAT(schema, HasSubstr("\"$schema\": \"https://json-schema.org/draft/2020-12/schema\""));
   EXPECT_THAT(schema, HasSubstr("\"additionalProperties\": false"));
   EXPECT_THAT(schema, HasSubstr("\"const\": \"mcl\""));
-
 }
 
 TEST(OptionsDocs, SchemaIsBalancedJson) {

@@ -47,7 +47,8 @@ OptionTable<Range2> rangeOptions() {
       .number("sigma_m", &Range2::sigma, moreThan(0), "Its sigma.")
       .number("max_m", &Range2::max, between(0.5, 1000), "Its largest value.")
       .check([](const Range2& range) {
-        if (range.sigma >= range.max) throw ConfigError(Complaint{.what = "sigma exceeds max", .key = "sigma_m"});
+        if (range.sigma >= range.max)
+          throw ConfigError(Complaint{.what = "sigma exceeds max", .key = "sigma_m"});
       });
 }
 
@@ -73,16 +74,21 @@ OptionTable<Sample> sampleOptions() {
             "A list.");
 }
 
-Sample read(const std::string& text) { return readOptions(parseYaml(text, "c.yaml"), sampleOptions()); }
+Sample read(const std::string& text) {
+  return readOptions(parseYaml(text, "c.yaml"), sampleOptions());
+}
 Complaint refusal(const std::string& text) {
   return complaintOf([&] { return read(text); });
 }
 
-TEST(OptionsRead, EmptyTableGivesTheDefaults) { EXPECT_EQ(read("{}"), Sample{}); }
+TEST(OptionsRead, EmptyTableGivesTheDefaults) {
+  EXPECT_EQ(read("{}"), Sample{});
+}
 
 TEST(OptionsRead, EveryKindOfValueArrives) {
   const Sample sample = read(
-      "range_std_m: 1.5\nyaw_deg: 90\nrate_hz: 2e1\ncount: 7\nseed: 18446744073709551615\nmode: fast\nuse: false\n"
+      "range_std_m: 1.5\nyaw_deg: 90\nrate_hz: 2e1\ncount: 7\nseed: 18446744073709551615\nmode: fast\nuse: "
+      "false\n"
       "label: 'a b'\nfile: logs/x.rawlog\nlimit_m: -2\nextra: {sigma_m: 3}\nrange: {max_m: 60}\n"
       "items: [{name: one}, {name: two, heading_deg: 180}]\n");
   EXPECT_EQ(sample.range_std, 1.5);

@@ -62,8 +62,8 @@ TEST(OptionsUnits, NumbersAreDecimalOnly) {
   for (const char* good : {"0", "-1", "+1", "1.", ".5", "0.5", "1e3", "1.5E-3", "-0"}) {
     EXPECT_TRUE(isNumber(good)) << good;
   }
-  for (const char* bad : {"", "-", ".", "e3", "1e", "1e+", "01", "00", "-01.5", "0x1", "1 ", " 1", "1m", "inf",
-                          "nan", "1.2.3", "--1", "1e3.5"}) {
+  for (const char* bad : {"", "-", ".", "e3", "1e", "1e+", "01", "00", "-01.5", "0x1", "1 ", " 1", "1m",
+                          "inf", "nan", "1.2.3", "--1", "1e3.5"}) {
     EXPECT_FALSE(isNumber(bad)) << bad;
   }
   EXPECT_TRUE(isWholeNumber("-12"));
