@@ -150,19 +150,19 @@ void runChecks(const YamlNode& node, const TableCore& table, const void* object,
 }
 
 /// Steps of one part between dots: "a", "a[1]", "a[1][2]".
-bool addSteps(const std::string& part, std::vector<PathStep>* steps) {
+std::optional<std::vector<PathStep>> partSteps(const std::string& part) {
   const std::size_t bracket = std::min(part.find('['), part.size());
-  if (bracket == 0) return false;
-  steps->push_back({.name = part.substr(0, bracket)});
+  if (bracket == 0) return std::nullopt;
+  std::vector<PathStep> steps = {{.name = part.substr(0, bracket)}};
   for (std::size_t begin = bracket; begin < part.size();) {
     std::size_t index = 0;
     const char* first = part.data() + begin + 1;
     const auto result = std::from_chars(first, part.data() + part.size(), index);
-    if (part[begin] != '[' || result.ec != std::errc{} || *result.ptr != ']') return false;
-    steps->push_back({.index = index});
+    if (part[begin] != '[' || result.ec != std::errc{} || *result.ptr != ']') return std::nullopt;
+    steps.push_back({.index = index});
     begin = static_cast<std::size_t>(result.ptr - part.data()) + 1;
   }
-  return true;
+  return steps;
 }
 
 }  // namespace
@@ -171,7 +171,9 @@ std::optional<std::vector<PathStep>> pathSteps(const std::string& path) {
   std::vector<PathStep> steps;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('.', begin), path.size());
-    if (!addSteps(path.substr(begin, end - begin), &steps)) return std::nullopt;
+    const auto part = partSteps(path.substr(begin, end - begin));
+    if (!part) return std::nullopt;
+    steps.insert(steps.end(), part->begin(), part->end());
     begin = end + 1;
   }
   return steps;

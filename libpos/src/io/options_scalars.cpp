@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 
@@ -11,9 +10,7 @@ namespace pos::io {
 namespace {
 
 std::string plain(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
+  return numberText(value, "");
 }
 
 [[noreturn]] void refuse(const Field& field, const std::string& what, const std::string& suggestion = "") {

@@ -14,13 +14,14 @@ YamlNode textList(const std::vector<std::string>& texts) {
   return list;
 }
 
-void addRange(const Range& range, YamlNode* schema) {
+YamlNode withRange(YamlNode schema, const Range& range) {
   if (std::isfinite(range.min)) {
-    schema->add(range.min_excluded ? "exclusiveMinimum" : "minimum", plainNode(numberText(range.min, "")));
+    schema.add(range.min_excluded ? "exclusiveMinimum" : "minimum", plainNode(numberText(range.min, "")));
   }
   if (std::isfinite(range.max)) {
-    schema->add(range.max_excluded ? "exclusiveMaximum" : "maximum", plainNode(numberText(range.max, "")));
+    schema.add(range.max_excluded ? "exclusiveMaximum" : "maximum", plainNode(numberText(range.max, "")));
   }
+  return schema;
 }
 
 YamlNode leafSchema(const OptionRow& row, const void* defaults) {
@@ -34,7 +35,7 @@ YamlNode leafSchema(const OptionRow& row, const void* defaults) {
   const std::string unit(unitOf(option.key).symbol);
   schema.add("type", textNode(type));
   schema.add("description", textNode(option.text + (unit.empty() ? "" : " Unit: " + unit + ".")));
-  if (number) addRange(option.range, &schema);
+  if (number) schema = withRange(std::move(schema), option.range);
   if (option.kind == Option::Kind::Choice) schema.add("enum", textList(option.choices));
   if (option.kind == Option::Kind::Text || option.kind == Option::Kind::Path)
     schema.add("minLength", plainNode("1"));
@@ -58,43 +59,43 @@ YamlNode rowSchema(const OptionRow& row, const void* defaults) {
   return list;
 }
 
-void addRows(const TableCore& table, const void* defaults, YamlNode* properties, YamlNode* required) {
+/// A table's schema while it is put together.
+struct ObjectParts {
+  YamlNode properties = tableNode();
+  YamlNode required = listNode();
+};
+
+ObjectParts withRows(ObjectParts parts, const TableCore& table, const void* defaults) {
   for (const OptionRow& row : table.rows) {
-    if (row.option.required) required->items.push_back(textNode(row.option.key));
-    if (properties->find(row.option.key) == nullptr)
-      properties->add(row.option.key, rowSchema(row, defaults));
+    const std::string& key = row.option.key;
+    if (row.option.required) parts.required.items.push_back(textNode(key));
+    if (parts.properties.find(key) == nullptr) parts.properties.add(key, rowSchema(row, defaults));
   }
+  return parts;
 }
 
-YamlNode objectSchema(YamlNode properties, YamlNode required) {
+YamlNode objectSchema(ObjectParts parts) {
   YamlNode schema = tableNode();
   schema.add("type", textNode("object"));
-  schema.add("properties", std::move(properties));
-  if (!required.items.empty()) schema.add("required", std::move(required));
+  schema.add("properties", std::move(parts.properties));
+  if (!parts.required.items.empty()) schema.add("required", std::move(parts.required));
   schema.add("additionalProperties", plainNode("false"));
   return schema;
 }
 
 YamlNode alternativeSchema(const TableCore& table, const void* defaults, const Alternative& alternative) {
-  YamlNode constant = tableNode();
-  constant.add("const", textNode(alternative.name));
-  constant.add("description", textNode(alternative.text));
-  YamlNode properties = tableNode();
-  YamlNode required = listNode();
-  properties.add(table.selector, std::move(constant));
-  addRows(table, defaults, &properties, &required);
+  YamlNode name = tableNode();
+  name.add("const", textNode(alternative.name));
+  name.add("description", textNode(alternative.text));
+  ObjectParts parts;
+  parts.properties.add(table.selector, std::move(name));
+  parts = withRows(std::move(parts), table, defaults);
   const auto sample = alternative.sample();
-  addRows(*alternative.table, sample.get(), &properties, &required);
-  return objectSchema(std::move(properties), std::move(required));
+  return objectSchema(withRows(std::move(parts), *alternative.table, sample.get()));
 }
 
 YamlNode tableSchema(const TableCore& table, const void* defaults) {
-  YamlNode properties = tableNode();
-  YamlNode required = listNode();
-  if (table.alternatives.empty()) {
-    addRows(table, defaults, &properties, &required);
-    return objectSchema(std::move(properties), std::move(required));
-  }
+  if (table.alternatives.empty()) return objectSchema(withRows({}, table, defaults));
   YamlNode any = listNode();
   for (const Alternative& alternative : table.alternatives) {
     any.items.push_back(alternativeSchema(table, defaults, alternative));

@@ -1,3 +1,6 @@
+#include <array>
+#include <cstdio>
+
 #include "pos/io/option_core.hpp"
 #include "pos/io/units.hpp"
 
@@ -16,26 +19,33 @@ std::string explanation(const Option& option) {
   return leaf ? option.text + " (" + expectedText(option) + ")" : option.text;
 }
 
-/// Adds the rows that have a value; returns the keys of the others.
-std::string writeRows(const TableCore& table, const void* object, Comments comments, YamlNode* node) {
-  std::string absent;
+/// A table while it is written: what it holds, and the keys that have no value.
+struct Written {
+  YamlNode node = tableNode();
+  std::string absent = {};
+};
+
+std::optional<YamlNode> rowValue(const OptionRow& row, const TableCore& table, const void* object,
+                                 Comments comments) {
+  if (row.option.key != table.selector) return row.write(object, comments);
+  const Alternative* held = heldAlternative(table, object);
+  return held ? std::optional(textNode(held->name)) : std::nullopt;
+}
+
+/// `so_far` and the rows of the table.
+Written withRows(Written so_far, const TableCore& table, const void* object, Comments comments) {
   for (const OptionRow& row : table.rows) {
-    std::optional<YamlNode> value;
-    if (row.option.key == table.selector) {
-      if (const Alternative* held = heldAlternative(table, object)) value = textNode(held->name);
-    } else {
-      value = row.write(object, comments);
-    }
+    std::optional<YamlNode> value = rowValue(row, table, object, comments);
     if (!value) {
-      absent += (absent.empty() ? "" : ", ") + row.option.key;
+      so_far.absent += (so_far.absent.empty() ? "" : ", ") + row.option.key;
       continue;
     }
     if (comments == Comments::Explained) {
       value->comment = explanation(row.option) + (value->comment.empty() ? "" : "\n" + value->comment);
     }
-    node->add(row.option.key, std::move(*value));
+    so_far.node.add(row.option.key, std::move(*value));
   }
-  return absent;
+  return so_far;
 }
 
 // ---- reference -------------------------------------------------------------------------------------------
@@ -72,11 +82,19 @@ std::string allowed(const Option& option) {
   return text.empty() ? rangeText(option.range) : text;
 }
 
+/// Four digits are enough to read; files get them all.
+std::string roundedText(const std::string& number) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.4g", siValue(number, ""));
+  return buffer.data();
+}
+
 std::string defaultText(const OptionRow& row, const void* defaults) {
   if (row.option.required) return "required";
   if (row.option.kind == Option::Kind::Table) return row.option.optional ? "absent" : "";
-  const auto value = row.write ? row.write(defaults, Comments::None) : std::nullopt;
-  return value ? code(inlineText(*value)) : "absent";
+  const auto value = row.write(defaults, Comments::None);
+  if (!value) return "absent";
+  return code(row.option.kind == Option::Kind::Number ? roundedText(value->text) : inlineText(*value));
 }
 
 std::string referenceRows(const TableCore& table, const void* defaults, const std::string& prefix) {
@@ -115,15 +133,14 @@ std::string alternativeSections(const TableCore& table) {
 }  // namespace
 
 YamlNode writeTable(const TableCore& table, const void* object, Comments comments) {
-  YamlNode node = tableNode();
-  std::string absent = writeRows(table, object, comments, &node);
+  Written written = withRows({}, table, object, comments);
   if (const Alternative* held = heldAlternative(table, object)) {
-    const std::string more = writeRows(*held->table, held->held(object), comments, &node);
-    absent += (absent.empty() || more.empty() ? "" : ", ") + more;
+    written = withRows(std::move(written), *held->table, held->held(object), comments);
   }
-  if (comments == Comments::Explained && !absent.empty())
-    node.comment = "Further keys, not set here: " + absent;
-  return node;
+  if (comments == Comments::Explained && !written.absent.empty()) {
+    written.node.comment = "Further keys, not set here: " + written.absent;
+  }
+  return std::move(written.node);
 }
 
 std::string markdownReference(const TableCore& table, const void* defaults) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "pos/io/files.hpp"
 
@@ -147,13 +148,12 @@ class TreeBuilder final : public YAML::EventHandler {
 /// Length of the UTF-8 character that starts at `i`, 0 when there is none.
 std::size_t utf8Length(const std::string& text, std::size_t i) {
   const auto byte = [&text](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-  const unsigned char lead = byte(i);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
+  const auto leads = [lead = byte(i)](unsigned low, unsigned high) { return lead >= low && lead < high; };
+  const std::size_t length = leads(0, 0x80)      ? 1
+                             : leads(0xc2, 0xe0) ? 2
+                             : leads(0xe0, 0xf0) ? 3
+                             : leads(0xf0, 0xf5) ? 4
+                                                 : 0;
   if (length == 0 || i + length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k) {
     if ((byte(i + k) & 0xc0) != 0x80) return 0;
