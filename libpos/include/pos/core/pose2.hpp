@@ -18,6 +18,7 @@ struct Pose2 {
   double yaw = 0.0;
 
   Eigen::Vector2d translation() const { return {x, y}; }
+  bool operator==(const Pose2&) const = default;  ///< every bit, the yaw is not wrapped first
 };
 
 /// Rotation matrix of an angle: child coordinates to parent coordinates.

@@ -26,12 +26,16 @@ struct StartConfig {
   Pose2 pose;                   ///< map frame; yaw is ignored for UnknownHeading, all for Unknown
   double position_sigma = 0.1;  ///< m, per axis
   double yaw_sigma = 0.05;      ///< rad
+
+  bool operator==(const StartConfig&) const = default;
 };
 
 /// Where a tag sits on the body (m, FLU; origin = the body frame of the log).
 struct TagMount {
   TagId id = 0;
   Eigen::Vector3d p_body = Eigen::Vector3d::Zero();
+
+  bool operator==(const TagMount&) const = default;
 };
 
 /// Planar odometry noise, grown with the motion (a density per metre turned) and with time.
@@ -42,6 +46,8 @@ struct OdometryNoise {
   double yaw_per_sqrt_rad = 0.03;      ///< rad / sqrt(rad turned)
   double yaw_per_sqrt_s = 0.0005;      ///< rad / sqrt(s)
   double position_per_sqrt_s = 0.001;  ///< m / sqrt(s)
+
+  bool operator==(const OdometryNoise&) const = default;
 };
 
 struct DeadReckoningConfig {
@@ -49,6 +55,8 @@ struct DeadReckoningConfig {
   enum class Variant { Odometry } variant = Variant::Odometry;
   StartConfig start;
   OdometryNoise noise;
+
+  bool operator==(const DeadReckoningConfig&) const = default;
 };
 
 /// How a gate opens again when it keeps rejecting what may well be true.
@@ -58,6 +66,8 @@ struct GateConfig {
   double agreement_fraction =
       0.34;                ///< agreement = at least this fraction of the anchors heard in that time pass
   double inflation = 4.0;  ///< factor on the pose covariance each time the gate opens
+
+  bool operator==(const GateConfig&) const = default;
 };
 
 /// A slowly changing unknown of a sensor: its start value, how sure that is, and how it wanders.
@@ -66,6 +76,8 @@ struct CalibrationState {
   double value = 0.0;
   double sigma = 0.0;
   double walk_per_sqrt_s = 0.0;
+
+  bool operator==(const CalibrationState&) const = default;
 };
 
 struct RangeOdometryConfig {
@@ -90,6 +102,8 @@ struct RangeOdometryConfig {
   CalibrationState latency{0.0, 0.0, 0.0};  ///< s, the ranges tell of this long ago
   GateConfig gate;
   int heading_hypotheses = 12;  ///< filters started when the heading is unknown
+
+  bool operator==(const RangeOdometryConfig&) const = default;
 };
 
 struct RangeLikelihood {
@@ -97,6 +111,8 @@ struct RangeLikelihood {
   double outlier_probability = 0.1;  ///< share of ranges that say nothing about the distance
   double range_max = 100.0;          ///< m, an outlier lies uniformly in [0, range_max]
   double bias_sigma = 0.0;  ///< m, slowly varying offset per anchor, tracked beside the particles; 0 = none
+
+  bool operator==(const RangeLikelihood&) const = default;
 };
 
 struct ScanLikelihood {
@@ -105,6 +121,8 @@ struct ScanLikelihood {
   double outlier_probability = 0.2;
   double distance_max = 1.0;  ///< m, distances saturate here
   double tempering = 1.0;     ///< exponent on the scan's likelihood, for beams that are not independent
+
+  bool operator==(const ScanLikelihood&) const = default;
 };
 
 struct ParticleCount {
@@ -114,6 +132,8 @@ struct ParticleCount {
   double kld_z = 2.33;         ///< normal quantile of the confidence, 2.33 = 99 %
   double bin_position = 0.25;  ///< m
   double bin_yaw = 0.1745;     ///< rad
+
+  bool operator==(const ParticleCount&) const = default;
 };
 
 struct MclConfig {
@@ -131,6 +151,8 @@ struct MclConfig {
       0.001;  ///< augmented MCL decay rates (Thrun, Burgard, Fox 2005, table 8.3); 0 = none
   double injection_fast = 0.1;
   std::uint64_t seed = 1;
+
+  bool operator==(const MclConfig&) const = default;
 };
 
 /// MRPT's own particle filter with the same inputs.
@@ -145,8 +167,24 @@ struct MrptMclConfig {
   bool adaptive_size = true;  ///< KLD
   int beams = 60;
   std::uint64_t seed = 1;
+
+  bool operator==(const MrptMclConfig&) const = default;
 };
 
+/// The struct itself when an estimator can be built from it. Throws ConfigError with the key as it is spelt
+/// in configuration files, relative to the struct: signs, and the rules that join several keys.
+StartConfig validated(StartConfig config);
+OdometryNoise validated(OdometryNoise config);
+GateConfig validated(GateConfig config);
+DeadReckoningConfig validated(DeadReckoningConfig config);
+RangeOdometryConfig validated(RangeOdometryConfig config);
+RangeLikelihood validated(RangeLikelihood config);
+ScanLikelihood validated(ScanLikelihood config);
+ParticleCount validated(ParticleCount config);
+MclConfig validated(MclConfig config);
+MrptMclConfig validated(MrptMclConfig config);
+
 using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig>;
+EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation

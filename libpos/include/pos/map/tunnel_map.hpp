@@ -19,6 +19,18 @@ struct Anchor {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< m
   double survey_sigma = 0.0;                        ///< m, per axis
   double range_bias = 0.0;                          ///< m, subtracted from every range to this anchor
+
+  bool operator==(const Anchor&) const = default;
+};
+
+/// Where the map frame sits on the Earth: the WGS84 tie, usually at the portal.
+struct GeodeticOrigin {
+  double latitude = 0.0;       ///< rad
+  double longitude = 0.0;      ///< rad
+  double altitude = 0.0;       ///< m above the ellipsoid
+  double grid_rotation = 0.0;  ///< rad, from true east counter-clockwise to the map's x axis
+
+  bool operator==(const GeodeticOrigin&) const = default;
 };
 
 /// How likely each cell is to be free, over a regular grid. Cell (column, row) covers
@@ -42,6 +54,7 @@ struct OccupancyGrid {
 
 struct TunnelMap {
   std::string name;
+  std::optional<GeodeticOrigin> origin;
   std::vector<Anchor> anchors;  ///< ids are unique
   std::optional<OccupancyGrid> grid;
 

@@ -1,0 +1,217 @@
+#include "pos/estimation/configs.hpp"
+
+#include <cmath>
+#include <set>
+
+#include "pos/core/error.hpp"
+
+namespace pos::estimation {
+namespace {
+
+std::string prefixed(const std::string& table, const std::string& key) {
+  return table.empty() || key.empty() ? table + key : table + "." + key;
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
+                         const std::string& expected) {
+  throw ConfigError(Complaint{.what = what, .key = key, .got = got, .expected = expected});
+}
+
+void requirePositive(double value, const std::string& key) {
+  if (!(value > 0.0) || !std::isfinite(value)) {
+    refuse("the value has to be positive", key, std::to_string(value), "> 0");
+  }
+}
+
+void requireNotNegative(double value, const std::string& key) {
+  if (!(value >= 0.0) || !std::isfinite(value)) {
+    refuse("the value must not be negative", key, std::to_string(value), ">= 0");
+  }
+}
+
+void requireShare(double value, const std::string& key) {
+  if (!(value >= 0.0 && value <= 1.0)) {
+    refuse("the value has to be a share", key, std::to_string(value), "0 to 1");
+  }
+}
+
+void requireFinite(double value, const std::string& key) {
+  if (!std::isfinite(value)) refuse("the value is no number", key, std::to_string(value), "a finite number");
+}
+
+/// Runs `validated` on a struct inside another one, so that a complaint names the whole key.
+template <class Inner>
+void requireValid(const Inner& inner, const std::string& table) {
+  try {
+    (void)validated(inner);
+  } catch (const ConfigError& error) {
+    Complaint complaint = error.complaint();
+    complaint.key = prefixed(table, complaint.key);
+    throw ConfigError(complaint);
+  }
+}
+
+void requireUniqueTags(const std::vector<TagMount>& tags) {
+  std::set<TagId> seen;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const std::string key = "tags[" + std::to_string(i) + "]";
+    if (!tags[i].p_body.allFinite()) refuse("a tag's place is no number", key, "", "x_m, y_m, z_m in metres");
+    if (!seen.insert(tags[i].id).second) {
+      refuse("two tags have the same id", key + ".id", std::to_string(tags[i].id), "every id once");
+    }
+  }
+}
+
+void requireCalibration(const CalibrationState& state, const std::string& table, const std::string& unit) {
+  const std::string of_unit = unit.empty() ? "" : "_" + unit;
+  requireFinite(state.value, prefixed(table, "value" + of_unit));
+  requireNotNegative(state.sigma, prefixed(table, "sigma" + of_unit));
+  const std::string walk = prefixed(table, "walk" + of_unit + "_per_sqrt_s");
+  requireNotNegative(state.walk_per_sqrt_s, walk);
+  if (state.sigma == 0.0 && state.walk_per_sqrt_s > 0.0) {
+    refuse("a value that is held (sigma 0) cannot wander", walk, std::to_string(state.walk_per_sqrt_s),
+           "0, or a sigma above 0");
+  }
+}
+
+void requireOneSensor(bool use_ranges, bool use_scans) {
+  if (!use_ranges && !use_scans) {
+    refuse("neither ranges nor scans are used", "use_ranges", "false", "use_ranges or use_scans true");
+  }
+}
+
+}  // namespace
+
+StartConfig validated(StartConfig config) {
+  requireFinite(config.pose.x, "x_m");
+  requireFinite(config.pose.y, "y_m");
+  requireFinite(config.pose.yaw, "yaw_deg");
+  if (config.mode != StartMode::Unknown) requirePositive(config.position_sigma, "position_sigma_m");
+  if (config.mode == StartMode::Known) requirePositive(config.yaw_sigma, "yaw_sigma_deg");
+  return config;
+}
+
+OdometryNoise validated(OdometryNoise config) {
+  requireNotNegative(config.distance_per_sqrt_m, "distance_m_per_sqrt_m");
+  requireNotNegative(config.lateral_per_sqrt_m, "lateral_m_per_sqrt_m");
+  requireNotNegative(config.yaw_per_sqrt_m, "yaw_deg_per_sqrt_m");
+  requireNotNegative(config.yaw_per_sqrt_rad, "yaw_deg_per_sqrt_deg");
+  requireNotNegative(config.yaw_per_sqrt_s, "yaw_deg_per_sqrt_s");
+  requireNotNegative(config.position_per_sqrt_s, "position_m_per_sqrt_s");
+  return config;
+}
+
+GateConfig validated(GateConfig config) {
+  if (!(config.confidence > 0.0 && config.confidence < 1.0)) {
+    refuse("the gate needs a confidence", "confidence", std::to_string(config.confidence), "> 0 and < 1");
+  }
+  requirePositive(config.open_after, "open_after_s");
+  requireShare(config.agreement_fraction, "agreement_fraction");
+  if (!(config.inflation >= 1.0) || !std::isfinite(config.inflation)) {
+    refuse("the inflation would shrink the covariance", "inflation", std::to_string(config.inflation),
+           ">= 1");
+  }
+  return config;
+}
+
+DeadReckoningConfig validated(DeadReckoningConfig config) {
+  requireValid(config.start, "start");
+  requireValid(config.noise, "odometry_noise");
+  if (config.start.mode != StartMode::Known) {
+    refuse("dead reckoning cannot find its start by itself", "start.mode", "", "known");
+  }
+  return config;
+}
+
+RangeOdometryConfig validated(RangeOdometryConfig config) {
+  requireValid(config.start, "start");
+  requireValid(config.odometry_noise, "odometry_noise");
+  requireValid(config.gate, "gate");
+  requirePositive(config.acceleration_density, "acceleration_density_m_per_s_per_sqrt_s");
+  requirePositive(config.yaw_acceleration_density, "yaw_acceleration_density_deg_per_s_per_sqrt_s");
+  requirePositive(config.max_speed, "max_speed_m_per_s");
+  requireUniqueTags(config.tags);
+  requireFinite(config.body_height, "body_height_m");
+  requirePositive(config.range_sigma, "range_sigma_m");
+  requireCalibration(config.range_scale, "range_scale", "");
+  requireCalibration(config.range_offset, "range_offset", "m");
+  requireCalibration(config.anchor_offset, "anchor_offset", "m");
+  requireCalibration(config.gyro_bias, "gyro_bias", "deg_per_s");
+  requireCalibration(config.wheel_scale, "wheel_scale", "");
+  requireCalibration(config.latency, "latency", "s");
+  requirePositive(config.range_scale.value, "range_scale.value");
+  requirePositive(config.wheel_scale.value, "wheel_scale.value");
+  requirePositive(config.heading_hypotheses, "heading_hypotheses");
+  return config;
+}
+
+RangeLikelihood validated(RangeLikelihood config) {
+  requirePositive(config.sigma, "sigma_m");
+  requireShare(config.outlier_probability, "outlier_probability");
+  requirePositive(config.range_max, "range_max_m");
+  requireNotNegative(config.bias_sigma, "bias_sigma_m");
+  if (config.sigma >= config.range_max) {
+    refuse("the sigma of a range exceeds the longest range", "sigma_m", std::to_string(config.sigma),
+           "below range_max_m = " + std::to_string(config.range_max));
+  }
+  return config;
+}
+
+ScanLikelihood validated(ScanLikelihood config) {
+  requirePositive(config.beams, "beams");
+  requirePositive(config.sigma, "sigma_m");
+  requireShare(config.outlier_probability, "outlier_probability");
+  requirePositive(config.distance_max, "distance_max_m");
+  requirePositive(config.tempering, "tempering");
+  return config;
+}
+
+ParticleCount validated(ParticleCount config) {
+  requirePositive(config.min, "min");
+  if (config.min > config.max) {
+    refuse("the smallest number of particles exceeds the largest", "min", std::to_string(config.min),
+           "at most max = " + std::to_string(config.max));
+  }
+  requirePositive(config.kld_epsilon, "kld_epsilon");
+  requirePositive(config.kld_z, "kld_z");
+  requirePositive(config.bin_position, "bin_position_m");
+  requirePositive(config.bin_yaw, "bin_yaw_deg");
+  return config;
+}
+
+MclConfig validated(MclConfig config) {
+  requireValid(config.start, "start");
+  requireValid(config.odometry_noise, "odometry_noise");
+  requireValid(config.range, "range");
+  requireValid(config.scan, "scan");
+  requireValid(config.particles, "particles");
+  requireUniqueTags(config.tags);
+  requireFinite(config.body_height, "body_height_m");
+  requireOneSensor(config.use_ranges, config.use_scans);
+  requireShare(config.resample_below, "resample_below");
+  requireShare(config.injection_slow, "injection_slow");
+  requireShare(config.injection_fast, "injection_fast");
+  if (config.injection_slow > 0.0 && config.injection_slow >= config.injection_fast) {
+    refuse("the slow average has to decay slower than the fast one", "injection_slow",
+           std::to_string(config.injection_slow), "below injection_fast, or 0 for no injection");
+  }
+  return config;
+}
+
+MrptMclConfig validated(MrptMclConfig config) {
+  requireValid(config.start, "start");
+  requireUniqueTags(config.tags);
+  requireFinite(config.body_height, "body_height_m");
+  requireOneSensor(config.use_ranges, config.use_scans);
+  requirePositive(config.range_sigma, "range_sigma_m");
+  requirePositive(config.particles, "particles");
+  requirePositive(config.beams, "beams");
+  return config;
+}
+
+EstimatorConfig validated(EstimatorConfig config) {
+  std::visit([](const auto& chosen) { (void)validated(chosen); }, config);
+  return config;
+}
+
+}  // namespace pos::estimation

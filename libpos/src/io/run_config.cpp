@@ -1,0 +1,216 @@
+#include "pos/io/run_config.hpp"
+
+#include "pos/io/files.hpp"
+#include "pos/io/overrides.hpp"
+
+namespace pos::io {
+namespace {
+
+using Align = EvaluationConfig::Align;
+using Format = TruthSource::Format;
+
+[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
+                         const std::string& expected, const std::string& suggestion = "") {
+  throw ConfigError(
+      Complaint{.what = what, .key = key, .got = got, .expected = expected, .suggestion = suggestion});
+}
+
+std::string indexed(const std::string& list, std::size_t i, const std::string& key) {
+  return list + "[" + std::to_string(i) + "]." + key;
+}
+
+bool fitsFileName(const std::string& name) {
+  return !name.empty() && name.find_first_not_of(
+                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                              "0123456789_-") == std::string::npos;
+}
+
+void requireUniqueEstimators(const std::vector<EstimatorEntry>& estimators) {
+  if (estimators.empty()) {
+    refuse("there is no estimator to run", "estimators", "an empty list",
+           "at least one item with name and type");
+  }
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    const std::string& name = estimators[i].name;
+    const std::string key = indexed("estimators", i, "name");
+    if (!fitsFileName(name)) {
+      refuse("the name does not fit a file name", key, name, "letters, digits, _ and - only");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (estimators[j].name != name) continue;
+      refuse("two estimators have the same name", key, name, "every name once",
+             "estimators[" + std::to_string(j) + "] has it already; rename one of the two");
+    }
+  }
+}
+
+void requireUniqueSensors(const std::vector<SensorConfig>& sensors) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (sensors[j].sensor != sensors[i].sensor) continue;
+      refuse("a sensor is listed twice", indexed("sensors", i, "sensor"), sensors[i].sensor,
+             "every sensor once", "sensors[" + std::to_string(j) + "] names it already; join the two");
+    }
+  }
+}
+
+void requireTruthFile(const TruthSource& truth) {
+  if (truth.format == Format::Log && truth.file) {
+    refuse("the truth is to come from the log, yet a file is named", "file", truth.file->string(),
+           "no file with format: log");
+  }
+  if (truth.format != Format::Log && !truth.file) {
+    refuse("the truth has no file", "file", "", "a path, unless format: log");
+  }
+}
+
+void requireOrder(const FaultConfig& faults) {
+  if (faults.range_outlier_min > faults.range_outlier_max) {
+    refuse("the smallest outlier exceeds the largest", "range_outlier_min_m",
+           std::to_string(faults.range_outlier_min),
+           "at most range_outlier_max_m = " + std::to_string(faults.range_outlier_max));
+  }
+}
+
+OptionTable<TruthSource> truthOptions() {
+  return OptionTable<TruthSource>("truth", "Reference poses for the evaluation.")
+      .path("file", &TruthSource::file, "File of the reference poses; none for format: log.")
+      .choice("format", &TruthSource::format,
+              {{"tum", Format::Tum},
+               {"euroc", Format::Euroc},
+               {"mrpt_index", Format::MrptIndex},
+               {"log", Format::Log}},
+              "How the file is written; mrpt_index has one row a frame, log takes the poses in the log.")
+      .number(
+          "x_m", [](auto& truth) -> auto& { return truth.T_map_truth.x; }, anything(),
+          "Put in front of every reference pose: east in the map.")
+      .number(
+          "y_m", [](auto& truth) -> auto& { return truth.T_map_truth.y; }, anything(),
+          "Put in front of every reference pose: north in the map.")
+      .number(
+          "yaw_deg", [](auto& truth) -> auto& { return truth.T_map_truth.yaw; }, between(-360, 360),
+          "Put in front of every reference pose: heading, counter-clockwise.")
+      .check(requireTruthFile);
+}
+
+OptionTable<FaultConfig> faultOptions() {
+  return OptionTable<FaultConfig>("faults", "Damage done to the log on purpose.")
+      .number("range_outlier_probability", &FaultConfig::range_outlier_probability, between(0, 1),
+              "Share of the ranges that are lengthened.")
+      .number("range_outlier_min_m", &FaultConfig::range_outlier_min, between(-1000, 1000),
+              "Least that is added to such a range.")
+      .number("range_outlier_max_m", &FaultConfig::range_outlier_max, between(-1000, 1000),
+              "Most that is added to such a range.")
+      .integer("seed", &FaultConfig::seed, atLeast(0), "Seed of the faults; the run's seed where absent.")
+      .check(requireOrder);
+}
+
+OptionTable<SensorConfig> sensorOptions() {
+  return OptionTable<SensorConfig>("sensors", "What to know of one sensor of the log.")
+      .text("sensor", &SensorConfig::sensor, "Label of the sensor in the log.")
+      .required()
+      .flag("use", &SensorConfig::use, "Whether its measurements are used.")
+      .number("latency_s", &SensorConfig::latency, between(-60, 60),
+              "Its stamps are this late; they are moved back by it.");
+}
+
+OptionTable<EvaluationConfig> evaluationOptions() {
+  return OptionTable<EvaluationConfig>("evaluation", "How estimates are compared with the truth.")
+      .choice("align", &EvaluationConfig::align,
+              {{"none", Align::None},
+               {"origin", Align::Origin},
+               {"se2", Align::Se2},
+               {"se3", Align::Se3},
+               {"posyaw", Align::PosYaw}},
+              "How the estimate is moved onto the truth first; moving hides errors of map and anchors.")
+      .number("skip_start_s", &EvaluationConfig::skip_start, between(0, 86400),
+              "Time not judged at the beginning.")
+      .number("max_gap_s", &EvaluationConfig::max_gap, between(0.001, 3600),
+              "The truth is not interpolated over a longer gap.")
+      .number("truth_time_offset_s", &EvaluationConfig::truth_time_offset, anything(),
+              "Added to the stamps of the truth.");
+}
+
+OptionTable<LogSource> logOptions() {
+  return OptionTable<LogSource>("log", "The recording to replay.")
+      .path("file", &LogSource::file,
+            "The recording; mrpt-common: stands for the share folder of that package.")
+      .required();
+}
+
+}  // namespace
+
+OptionTable<RunConfig> runOptions() {
+  return OptionTable<RunConfig>("Replay configuration", "Which log is replayed through which estimators.")
+      .integer("schema", &RunConfig::schema, between(1, 1), "Version of this format.")
+      .required()
+      .text("name", &RunConfig::name, "Name of the run in reports.")
+      .required()
+      .table("log", &RunConfig::log, logOptions(), "The recording to replay, unless --log names it.")
+      .path("map", &RunConfig::map, "The map file, unless --map names it.")
+      .table("truth", &RunConfig::truth, truthOptions(),
+             "Reference poses for the evaluation, unless --truth names them.")
+      .table(
+          "sequencer", &RunConfig::sequencer,
+          OptionTable<SequencerConfig>("sequencer", "Puts the measurements of all sensors in order of time.")
+              .number("lag_s", &SequencerConfig::lag, between(0, 3600),
+                      "How late a measurement may come and still be put in order."),
+          "Puts the measurements of all sensors in order of time.")
+      .integer("seed", &RunConfig::seed, atLeast(0), "Seed of all random numbers of the run.")
+      .table("record", &RunConfig::record,
+             OptionTable<RecordConfig>("record", "What is written while running.")
+                 .number("max_rate_hz", &RecordConfig::max_rate, between(0.001, 100000),
+                         "Estimates written per second and estimator at most."),
+             "What is written while running.")
+      .table("faults", &RunConfig::faults, faultOptions(), "Damage done to the log on purpose.")
+      .list("sensors", &RunConfig::sensors, sensorOptions(),
+            "What to know of single sensors; others are used as they are.")
+      .table("evaluation", &RunConfig::evaluation, evaluationOptions(),
+             "How estimates are compared with the truth.")
+      .list("estimators", &RunConfig::estimators, estimatorOptions(), "The estimators to run side by side.")
+      .required()
+      .check([](const RunConfig& config) {
+        requireUniqueEstimators(config.estimators);
+        requireUniqueSensors(config.sensors);
+      });
+}
+
+RunConfig validated(RunConfig config) {
+  requireUniqueEstimators(config.estimators);
+  requireUniqueSensors(config.sensors);
+  if (config.truth) requireTruthFile(*config.truth);
+  requireOrder(config.faults);
+  for (const EstimatorEntry& entry : config.estimators) (void)validated(entry.config);
+  return config;
+}
+
+RunConfig runConfigFrom(const YamlDocument& document, const std::filesystem::path& mrpt_share) {
+  RunConfig config = readOptions(document, runOptions());
+  const auto resolve = [&](std::filesystem::path& path) {
+    path = resolvedPath(path, document.file.parent_path(), mrpt_share);
+  };
+  if (config.log) resolve(config.log->file);
+  if (config.map) resolve(*config.map);
+  if (config.truth && config.truth->file) resolve(*config.truth->file);
+  return config;
+}
+
+RunConfig loadRunConfig(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                        const std::filesystem::path& mrpt_share) {
+  return runConfigFrom(applyOverrides(loadYaml(file), overrides), mrpt_share);
+}
+
+std::string resolvedYaml(const RunConfig& config) {
+  return optionsYaml(config, runOptions());
+}
+
+std::string exampleRunConfig() {
+  RunConfig config;
+  config.name = "my_run";
+  config.log = LogSource{"my_log.rawlog"};
+  config.map = "map.yaml";
+  config.estimators = {{.name = "range_odometry", .config = estimation::RangeOdometryConfig{}}};
+  return exampleYaml(config, runOptions());
+}
+
+}  // namespace pos::io
