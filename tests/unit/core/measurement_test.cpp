@@ -93,6 +93,7 @@ TEST(Defect, FixThatIsNoNumberOrNotOnTheEarth) {
   EXPECT_EQ(fault(GnssFix{.latitude = kNaN}), "fix is not a finite number");
   EXPECT_EQ(fault(GnssFix{.altitude = kInfinity}), "fix is not a finite number");
   EXPECT_EQ(fault(GnssFix{.latitude = 45.0}), "fix is not on the Earth");  // degrees given for radians
+  EXPECT_EQ(fault(GnssFix{.latitude = -1.58}), "fix is not on the Earth");
   EXPECT_EQ(fault(GnssFix{.longitude = -7.0}), "fix is not on the Earth");
   EXPECT_EQ(fault(GnssFix{.covariance_enu = kNegative}), "fix covariance is not positive semi-definite");
 }
