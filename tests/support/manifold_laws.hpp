@@ -65,7 +65,7 @@ TYPED_TEST_P(ManifoldLaws, MinusOfPlusGivesTheTangentBack) {
   for (const double size : {1e-12, 1e-6, 1e-3, 1.0}) {
     for (const TypeParam& x : ManifoldSamples<TypeParam>::states()) {
       for (const auto& d : this->tangents(size)) {
-        const auto error = minus(plus(x, d), x) - d;
+        const typename TestFixture::Tangent error = minus(plus(x, d), x) - d;
         EXPECT_LE(error.cwiseAbs().maxCoeff(), TestFixture::kTolerance) << "tangent " << d.transpose();
       }
     }
