@@ -119,8 +119,10 @@ OptionTable<StartConfig> startOptions() {
       .choice("mode", &StartConfig::mode,
               {{"known", StartMode::Known},
                {"unknown_heading", StartMode::UnknownHeading},
-               {"unknown", StartMode::Unknown}},
-              "Whether position and heading, the position alone, or nothing is known.")
+               {"unknown", StartMode::Unknown},
+               {"at_truth", StartMode::AtTruth}},
+              "Whether position and heading, the position alone, or nothing is known; at_truth takes the first "
+              "reference pose as the surveyed mark of the start (its heading only where the reference has one).")
       .number(
           "x_m", [](auto& start) -> auto& { return start.pose.x; }, anything(), "East in the map.")
       .number(
@@ -183,7 +185,6 @@ OptionTable<RangeOdometryConfig> rangeOdometryOptions() {
       .number("body_height_m", &Config::body_height, between(-10000, 10000),
               "Height of the body frame in the map.")
       .number("range_sigma_m", &Config::range_sigma, between(0.001, 100), "Standard deviation of a range.")
-      .flag("use_gnss", &Config::use_gnss, "Whether satellite fixes are used too; the map needs an origin.")
       .table("range_scale", &Config::range_scale, calibrationOptions("range_scale", "", between(0.5, 2), 0.5),
              "Factor between measured and true ranges.")
       .table("range_offset", &Config::range_offset,
