@@ -62,6 +62,9 @@ class NumberRows {
   void requireSize(bool holds, const std::string& expected) const {
     if (!holds) refuse("the row has the wrong length", std::to_string(size()) + " values", expected);
   }
+  void requirePoses(const Truth& truth) const {
+    if (truth.poses.empty()) refuseFile("the trajectory holds no pose", "no rows", "at least one row");
+  }
   [[noreturn]] void refuseFile(const std::string& what, const std::string& got,
                                const std::string& expected) const {
     throw DataError(
@@ -143,6 +146,7 @@ Truth readTumTruth(const std::filesystem::path& path) {
     requireLater(rows, stamp, truth);
     truth.poses.push_back({stamp, poseOf(rows, 1, QuaternionOrder::XyzW)});
   }
+  rows.requirePoses(truth);
   return truth;
 }
 
@@ -155,6 +159,7 @@ Truth readEurocTruth(const std::filesystem::path& path) {
     requireLater(rows, stamp, truth);
     truth.poses.push_back({stamp, poseOf(rows, 1, QuaternionOrder::WXyz)});
   }
+  rows.requirePoses(truth);
   return truth;
 }
 

@@ -14,7 +14,7 @@ constexpr int kDegreeDecimals = 10;
 
 constexpr const char* kTumHeader = "# t x y z qx qy qz qw";
 constexpr const char* kTumCovarianceHeader =
-    "# t x y z qx qy qz qw Prr Prp Pry Ppp Ppy Pyy Pxx Pxy Pxz Pyy Pyz Pzz";
+    "# t x y z qx qy qz qw Rxx Rxy Rxz Ryy Ryz Rzz Pxx Pxy Pxz Pyy Pyz Pzz";
 constexpr const char* kEstimateHeader =
     "stamp_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,"
     "sigma_x_m,sigma_y_m,sigma_z_m,sigma_yaw_deg,sigma_pitch_deg,sigma_roll_deg,"
