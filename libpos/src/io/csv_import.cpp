@@ -125,6 +125,32 @@ std::size_t rangesToUnknownAnchors(const ImportResult& result) {
       std::count_if(result.measurements.begin(), result.measurements.end(), unknown));
 }
 
+/// Truth, map and tags of the import, with the counts of their tables.
+ImportResult withoutStreams(const ImportMapping& mapping, const std::filesystem::path& data_dir) {
+  ImportResult result;
+  result.map.name = mapping.name;
+  result.map.anchors = mapping.listed_anchors;
+  result.tags = mapping.listed_tags;
+  if (mapping.truth) {
+    auto [truth, count] = readTruth(*mapping.truth, data_dir, mapping.origin);
+    result.truth = std::move(truth);
+    result.counts.tables.push_back(count);
+  }
+  if (mapping.anchors) {
+    auto [anchors, count] = readAnchors(*mapping.anchors, data_dir);
+    result.map.anchors = std::move(anchors);
+    result.counts.tables.push_back(count);
+  }
+  if (mapping.tags) {
+    auto [tags, count] = readTags(*mapping.tags, data_dir);
+    result.tags = std::move(tags);
+    result.counts.tables.push_back(count);
+  }
+  result.map = map::validated(std::move(result.map));
+  requireUniqueTags(result.tags);
+  return result;
+}
+
 }  // namespace
 
 ImportOptions validated(const ImportOptions& options) {
@@ -155,34 +181,15 @@ InjectedOutliers withRangeOutliers(std::vector<Measurement> measurements, const 
 ImportResult importCsv(const ImportMapping& mapping, const std::filesystem::path& data_dir,
                        const ImportOptions& options) {
   const ImportOptions checked = validated(options);
-  ImportResult result;
-  result.map.name = mapping.name;
-  result.map.anchors = mapping.listed_anchors;
-  result.tags = mapping.listed_tags;
-  std::vector<TableCount> side_tables;
-  if (mapping.truth) {
-    auto [truth, count] = readTruth(*mapping.truth, data_dir, mapping.origin);
-    result.truth = std::move(truth);
-    side_tables.push_back(count);
-  }
-  if (mapping.anchors) {
-    auto [anchors, count] = readAnchors(*mapping.anchors, data_dir);
-    result.map.anchors = std::move(anchors);
-    side_tables.push_back(count);
-  }
-  if (mapping.tags) {
-    auto [tags, count] = readTags(*mapping.tags, data_dir);
-    result.tags = std::move(tags);
-    side_tables.push_back(count);
-  }
-  result.map = map::validated(std::move(result.map));
-  requireUniqueTags(result.tags);
+  ImportResult result = withoutStreams(mapping, data_dir);
+  std::vector<TableCount> stream_counts;
   for (const TableMapping& stream : mapping.streams) {
     auto [part, count] = readStream(stream, data_dir, mapping.origin, result.tags);
     std::move(part.begin(), part.end(), std::back_inserter(result.measurements));
-    result.counts.tables.push_back(count);
+    stream_counts.push_back(count);
   }
-  result.counts.tables.insert(result.counts.tables.end(), side_tables.begin(), side_tables.end());
+  auto& tables = result.counts.tables;
+  tables.insert(tables.begin(), stream_counts.begin(), stream_counts.end());
   std::stable_sort(result.measurements.begin(), result.measurements.end(),
                    [](const Measurement& a, const Measurement& b) { return a.stamp < b.stamp; });
   auto [measurements, outliers] = withRangeOutliers(std::move(result.measurements), checked);

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pos/core/random.hpp"
 #include "pos/io/csv_import.hpp"
 #include "scratch_folder.hpp"
@@ -54,8 +56,8 @@ TEST(CsvMapping, UnknownKeyNamesPlacePathAndSuggestion) {
   EXPECT_THAT(
       complaint(replaced("file: r.csv", "fille: r.csv")),
       AllOf(HasSubstr("m.yaml:4:5"), HasSubstr("streams[0].fille"), HasSubstr("did you mean 'file'?")));
-  EXPECT_THAT(complaint(replaced("anchor: {column", "anker: {column")),
-              AllOf(HasSubstr("m.yaml:8:7"), HasSubstr("streams[0].columns.anker"), HasSubstr("'anchor'")));
+  EXPECT_THAT(complaint(replaced("anchor: {column", "anchr: {column")),
+              AllOf(HasSubstr("m.yaml:8:7"), HasSubstr("streams[0].columns.anchr"), HasSubstr("'anchor'")));
 }
 
 TEST(CsvMapping, MissingKeysAreNamed) {
@@ -74,7 +76,7 @@ TEST(CsvMapping, RepeatedKeysAreRefused) {
 
 TEST(CsvMapping, UnitsAreCheckedAgainstTheQuantity) {
   EXPECT_THAT(complaint(replaced("{column: r, unit: m}", "{column: r, unit: rad}")),
-              AllOf(HasSubstr("m.yaml:9:31"), HasSubstr("streams[0].columns.range.unit"), HasSubstr("'rad'"),
+              AllOf(HasSubstr("m.yaml:9:32"), HasSubstr("streams[0].columns.range.unit"), HasSubstr("'rad'"),
                     HasSubstr("one of m, cm, mm, km")));
   EXPECT_THAT(complaint(replaced("{column: r, unit: m}", "{column: r}")), HasSubstr("'unit' is missing"));
   EXPECT_THAT(complaint(replaced("{column: a}", "{column: a, unit: m}")),
@@ -161,33 +163,78 @@ TEST(CsvMapping, EveryUnitIsKnownForOneQuantityOnly) {
   EXPECT_TRUE(unitsOf(Quantity::Plain).empty());
 }
 
-TEST(CsvMapping, MutatedMappingAndTableLoadOrThrowAnError) {
-  const ScratchFolder folder;
-  folder.write("t.csv", "t,x,y\n0,1,2\n1,2,3\n");
-  const std::string table = "t,a,r\n0.5,1,2.5\n0.75,1,3.5\n";
-  const std::string alphabet = ":{}[],-\n #&*!|>'\"0x\t";
-  RandomStream random(11, 0);
-  const auto mutated = [&](std::string text) {
-    const std::size_t at = random.bits() % text.size();
-    const char c = alphabet[random.bits() % alphabet.size()];
-    if (random.bernoulli(0.3)) return text.erase(at, 1 + random.bits() % 3);
-    if (random.bernoulli(0.5)) return text.insert(at, 1, c);
-    text[at] = c;
-    return text;
-  };
+std::string mutated(std::string text, RandomStream& random) {
+  static const std::string kAlphabet = ":{}[],-\n #&*!|>'\"0x\t";
+  const std::size_t at = random.bits() % text.size();
+  const char c = kAlphabet[random.bits() % kAlphabet.size()];
+  if (random.bernoulli(0.3)) return text.erase(at, 1 + random.bits() % 3);
+  if (random.bernoulli(0.5)) return text.insert(at, 1, c);
+  text[at] = c;
+  return text;
+}
+
+/// How many of `trials` calls of `load` load; all others must throw a pos::Error.
+template <class Load>
+int countLoaded(int trials, const Load& load) {
   int loaded = 0;
-  constexpr int kTrials = 3000;
-  for (int i = 0; i < kTrials; ++i) {
-    folder.write("r.csv", i % 2 == 0 ? mutated(table) : table);
+  for (int i = 0; i < trials; ++i) {
     try {
-      const auto result = importCsv(parseImportMapping(mutated(kGood), "m.yaml"), folder.path());
-      for (const Measurement& m : result.measurements) EXPECT_FALSE(defect(m));
+      load();
       ++loaded;
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      EXPECT_FALSE(std::string(error.what()).empty());
     }
   }
-  EXPECT_GT(loaded, kTrials / 50);
-  EXPECT_LT(loaded, kTrials * 3 / 4);
+  return loaded;
+}
+
+TEST(CsvMapping, MutatedMappingLoadsOrThrowsAnError) {
+  RandomStream random(11, 0);
+  const int loaded = countLoaded(5000, [&] {
+    std::string text = mutated(kGood, random);
+    if (random.bernoulli(0.5)) text = mutated(text, random);
+    parseImportMapping(text, "m.yaml");
+  });
+  EXPECT_GT(loaded, 100);  // the fuzz reaches both ends
+  EXPECT_LT(loaded, 4000);
+}
+
+TEST(CsvMapping, MutatedTableLoadsOrThrowsAnError) {
+  const ScratchFolder folder;
+  folder.write("t.csv", "t,x,y\n0,1,2\n1,2,3\n");
+  const ImportMapping mapping = parseImportMapping(kGood, "m.yaml");
+  RandomStream random(12, 0);
+  const int loaded = countLoaded(200, [&] {
+    folder.write("r.csv", mutated("t,a,r\n0.5,1,2.5\n0.75,1,3.5\n", random));
+    for (const Measurement& m : importCsv(mapping, folder.path()).measurements) EXPECT_FALSE(defect(m));
+  });
+  EXPECT_GT(loaded, 10);
+  EXPECT_LT(loaded, 180);
+}
+
+TEST(CsvMapping, TheExampleInTheDocumentationLoads) {
+  std::ostringstream text;
+  text << std::ifstream(std::filesystem::path(POS_SOURCE_DIR) / "docs/howto/import_csv.md").rdbuf();
+  const std::string page = text.str();
+  const std::size_t begin = page.find("```yaml\n") + 8;
+  const ImportMapping mapping =
+      parseImportMapping(page.substr(begin, page.find("```", begin) - begin), "import_csv.md");
+  EXPECT_EQ(mapping.streams.size(), 2U);
+  EXPECT_EQ(mapping.streams[1].bad_rows, BadRows::Skip);
+  EXPECT_EQ(mapping.listed_tags.size(), 1U);
+}
+
+TEST(CsvMapping, TheDocumentationListsEveryKindAndField) {
+  std::ostringstream text;
+  text << std::ifstream(std::filesystem::path(POS_SOURCE_DIR) / "docs/howto/import_csv.md").rdbuf();
+  std::vector<TableSpec> specs = streamSpecs();
+  specs.insert(specs.end(), {truthSpec(), anchorsSpec(), tagsSpec()});
+  for (const TableSpec& spec : specs) {
+    const std::size_t begin = text.str().find("| `" + spec.kind + "` |");
+    ASSERT_NE(begin, std::string::npos) << spec.kind;
+    const std::string row = text.str().substr(begin, text.str().find('\n', begin) - begin);
+    for (const FieldSpec& field : spec.fields) EXPECT_THAT(row, HasSubstr(field.name)) << spec.kind;
+  }
 }
 
 }  // namespace
