@@ -46,6 +46,7 @@ FieldSource readField(const Entry& at, const FieldSpec& spec) {
 
 std::vector<FieldSource> readFields(const Entry& at, const TableSpec& spec) {
   Keys names;
+  names.reserve(spec.fields.size());
   for (const FieldSpec& field : spec.fields) names.push_back(field.name);
   requireKeys(at, names);
   std::vector<FieldSource> sources;
@@ -75,6 +76,7 @@ GnssFix::Quality readQuality(const Entry& at) {
                                                                    {"rtk_float", Quality::RtkFloat},
                                                                    {"rtk_fixed", Quality::RtkFixed}};
   Keys words;
+  words.reserve(kWords.size());
   for (const auto& [word, quality] : kWords) words.push_back(word);
   const std::string found = textOf(at, "one of " + text::joined(words));
   for (const auto& [word, quality] : kWords) {
@@ -126,6 +128,7 @@ TableMapping readTable(const Entry& at, const TableSpec& spec, Keys allowed) {
 TableMapping readStream(const Entry& at) {
   if (!at.node.IsMap()) refuse(at, "expected a map", "kind, file, columns");
   Keys kinds;
+  kinds.reserve(streamSpecs().size());
   for (const TableSpec& spec : streamSpecs()) kinds.push_back(spec.kind);
   const std::string expected = "one of " + text::joined(kinds);
   const Entry kind = need(at, "kind", expected);

@@ -53,9 +53,10 @@ std::optional<double> ImportTable::number(const std::optional<Field>& field) con
 std::int64_t ImportTable::integer(const Field& field) const {
   if (field.column) return csv_.integer(*field.column);
   const auto value = text::integer(text::shortest(field.constant));
-  if (!value)
+  if (!value) {
     refuse(field, "the field's value is not a whole number", text::shortest(field.constant),
            "a whole number");
+  }
   return *value;
 }
 

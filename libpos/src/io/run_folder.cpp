@@ -25,6 +25,7 @@ constexpr std::array kRunFiles{"run.json", "events.csv", "summary.json", "report
 /// The files an earlier run left in the folder: the fixed names, and each x.tum with its x.csv.
 std::vector<fs::path> earlierRun(const fs::path& folder) {
   std::vector<fs::path> files;
+  files.reserve(kRunFiles.size());
   for (const char* name : kRunFiles) files.push_back(folder / name);
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".tum" || !entry.is_regular_file()) continue;
