@@ -48,6 +48,15 @@ GnssFix::Quality qualityOf(unsigned nmea) {
   }
 }
 
+bool isIdentity(const mrpt::math::CMatrixDouble33& R) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      if (R(row, column) != (row == column ? 1.0 : 0.0)) return false;
+    }
+  }
+  return true;
+}
+
 template <typename Record>
 Extra<WheelTicks> ticksIn(const Record& record, std::int64_t largest) {
   const Flag flag = flagOf(record.hasEncodersInfo);
@@ -108,9 +117,8 @@ std::optional<ImuSample> imuSample(const CObservationIMU& observation) {
   ImuSample sample;
   sample.angular = {raw[IMU_WX], raw[IMU_WY], raw[IMU_WZ]};  // stored z, y, x
   sample.linear = {raw[IMU_X_ACC], raw[IMU_Y_ACC], raw[IMU_Z_ACC]};
-  const auto& pose = observation.sensorPose;
-  if (pose.yaw() != 0.0 || pose.pitch() != 0.0 || pose.roll() != 0.0) {
-    const Eigen::Quaterniond body_from_sensor = poseFromMrpt(pose).rotation;
+  if (!isIdentity(observation.sensorPose.getRotationMatrix())) {
+    const Eigen::Quaterniond body_from_sensor = poseFromMrpt(observation.sensorPose).rotation;
     sample.angular = body_from_sensor * sample.angular;
     sample.linear = body_from_sensor * sample.linear;
   }

@@ -1,7 +1,8 @@
 #pragma once
-/// Looks at the lengths inside the next object before MRPT does. MRPT sizes its arrays with whatever count it
+/// Looks at the counts inside the next object before MRPT does. MRPT sizes its arrays with whatever count it
 /// reads, so one flipped bit in a count would ask for gigabytes. Private to io.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -9,8 +10,14 @@
 
 namespace pos::io {
 
-/// Why the next object cannot be whole, or nothing when it may be. Consumes nothing. Classes whose layout is
-/// not known here (images, 3-D scans) pass unchecked.
-std::optional<std::string> implausible(ByteSource& source);
+struct ObjectOutline {
+  /// Bytes the object takes; nothing when its class or version is not known here (images, 3-D scans).
+  std::optional<std::size_t> length;
+  /// Why the object cannot be whole.
+  std::optional<std::string> damage;
+};
+
+/// Walks over the next object, nested ones included, without consuming or building anything.
+ObjectOutline outlineNext(ByteSource& source);
 
 }  // namespace pos::io

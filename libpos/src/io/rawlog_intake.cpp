@@ -115,7 +115,7 @@ bool RawlogIntake::takeCompanion(CObservation& observation) {
   if (!found) return false;
   if (companion_) refuse("companion line without its observation");
   companion_ = std::move(found);
-  companion_label_ = observation.sensorLabel;
+  companion_stamp_ = observation.timestamp;
   return true;
 }
 
@@ -215,7 +215,7 @@ void RawlogIntake::takeSimple(const std::optional<T>& reading, const char* unusa
 void RawlogIntake::takeObservation(CObservation& observation, std::optional<Stamp> fallback, Frame frame) {
   const auto own = stampOf(observation.timestamp);
   const auto stamp = own ? own : fallback;
-  if (companion_ && companion_label_ != observation.sensorLabel) {
+  if (companion_ && companion_stamp_ != observation.timestamp) {
     refuse("companion line without its observation");
     companion_.reset();
   }

@@ -40,7 +40,8 @@ class RawlogIntake {
 
   std::optional<Measurement> pop();
   std::optional<std::size_t> frame() const { return frame_; }
-  /// The number of action/observation pairs so far, and the stamp of the last one, if any of its parts has one.
+  /// The number of action/observation pairs so far, and the stamp of the last one, if any of its parts has
+  /// one.
   std::size_t pairs() const { return pairs_; }
   std::optional<Stamp> pairStamp() const { return pair_stamp_; }
 
@@ -90,7 +91,7 @@ class RawlogIntake {
 
   mrpt::serialization::CSerializable::Ptr pending_action_;
   std::optional<Companion> companion_;
-  std::string companion_label_;
+  mrpt::Clock::time_point companion_stamp_;
   std::map<std::string, OdometryReference> odometry_;
   WheelTicks action_ticks_;
   bool ticks_distrusted_ = false;

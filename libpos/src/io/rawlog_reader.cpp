@@ -70,7 +70,9 @@ void RawlogReader::Impl::stop(const std::string& damage) {
 void RawlogReader::Impl::readOne() {
   if (source.atEnd()) return stop(source.damage().value_or(""));
   try {
-    if (const auto reason = implausible(source)) return stop(*reason);
+    if (const auto outline = outlineNext(source); outline.damage) {
+      return stop(source.damage().value_or(*outline.damage));
+    }
     CSerializable::Ptr object = archive.ReadObject();
     ++end.objects;
     end.byte = source.position();
@@ -88,9 +90,8 @@ RawlogReader::RawlogReader(const std::string& path) {
   registerClassesOnce();
   impl_ = std::make_unique<Impl>(path);
   if (impl_->source.atEnd() && !impl_->source.damage()) {
-    throw DataError(Complaint{.what = "the rawlog is empty",
-                              .place = {.file = path},
-                              .suggestion = "record or copy it again"});
+    throw DataError(Complaint{
+        .what = "the rawlog is empty", .place = {.file = path}, .suggestion = "record or copy it again"});
   }
   impl_->readOne();
   if (impl_->end.objects == 0) {

@@ -68,7 +68,6 @@ void RawlogWriter::Impl::put(Stamp stamp, const std::string& label, const Stored
   if (stored.companion) {
     mrpt::obs::CObservationComment comment;
     comment.timestamp = stampToMrpt(stamp);
-    comment.sensorLabel = label;
     comment.text = stored.companion->text();
     archive << comment;
   }
