@@ -1,51 +1,17 @@
 #include "pos/io/rawlog_reader.hpp"
 
-#include <mrpt/maps/registerAllClasses.h>
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/registerAllClasses.h>
-#include <mrpt/serialization/CArchive.h>
-
-#include <stdexcept>
 
 #include "byte_source.hpp"
+#include "mrpt_archive.hpp"
 #include "mrpt_values.hpp"
 #include "object_guard.hpp"
 #include "pos/core/error.hpp"
 #include "rawlog_intake.hpp"
 
 namespace pos::io {
-namespace {
 
 using mrpt::serialization::CSerializable;
-
-/// MRPT's archive over our bytes. Refuses to give fewer bytes than asked for: MRPT would go on with rubbish.
-class SourceArchive final : public mrpt::serialization::CArchive {
- public:
-  explicit SourceArchive(ByteSource& source) : source_(source) {}
-
- protected:
-  std::size_t read(void* target, std::size_t count) override {
-    if (source_.read(target, count) < count) throw std::runtime_error("the file ends inside an object");
-    return count;
-  }
-  std::size_t write(const void*, std::size_t) override {
-    throw std::runtime_error("this archive only reads");
-  }
-
- private:
-  ByteSource& source_;
-};
-
-void registerClassesOnce() {
-  static const bool kDone = [] {
-    mrpt::obs::registerAllClasses_mrpt_obs();
-    mrpt::maps::registerAllClasses_mrpt_maps();
-    return true;
-  }();
-  static_cast<void>(kDone);
-}
-
-}  // namespace
 
 struct RawlogReader::Impl {
   explicit Impl(const std::string& path) : source(path), archive(source), intake(mrpt::Clock::now()) {}
@@ -87,7 +53,7 @@ void RawlogReader::Impl::readOne() {
 }
 
 RawlogReader::RawlogReader(const std::string& path) {
-  registerClassesOnce();
+  registerMrptClasses();
   impl_ = std::make_unique<Impl>(path);
   if (impl_->source.atEnd() && !impl_->source.damage()) {
     throw DataError(Complaint{

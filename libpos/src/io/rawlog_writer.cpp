@@ -1,43 +1,17 @@
 #include "pos/io/rawlog_writer.hpp"
 
 #include <mrpt/obs/CObservationComment.h>
-#include <mrpt/serialization/CArchive.h>
-#include <zlib.h>
 
 #include <map>
 #include <stdexcept>
 
+#include "mrpt_archive.hpp"
 #include "mrpt_conversion.hpp"
 #include "mrpt_values.hpp"
 #include "pos/core/error.hpp"
 
 namespace pos::io {
 namespace {
-
-class GzipArchive final : public mrpt::serialization::CArchive {
- public:
-  GzipArchive(const std::string& path, int level)
-      : file_(gzopen(path.c_str(), ("wb" + std::to_string(level)).c_str())) {}
-  GzipArchive(const GzipArchive&) = delete;
-  GzipArchive& operator=(const GzipArchive&) = delete;
-  ~GzipArchive() override { close(); }
-
-  bool isOpen() const { return file_ != nullptr; }
-  bool close() {
-    const bool good = file_ == nullptr || gzclose_w(file_) == Z_OK;
-    file_ = nullptr;
-    return good;
-  }
-
- protected:
-  std::size_t read(void*, std::size_t) override { throw std::runtime_error("this archive only writes"); }
-  std::size_t write(const void* data, std::size_t count) override {
-    return static_cast<std::size_t>(std::max(0, gzwrite(file_, data, static_cast<unsigned>(count))));
-  }
-
- private:
-  gzFile file_;
-};
 
 std::string labelOf(const Measurement& measurement) {
   return measurement.sensor.empty() ? std::string(readingName(measurement.reading)) : measurement.sensor;
