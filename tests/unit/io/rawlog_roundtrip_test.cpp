@@ -160,7 +160,8 @@ TEST(RawlogRoundTrip, TheGuardKnowsTheLengthOfEveryObjectTheWriterMakes) {
   while (!source.atEnd()) {
     const ObjectOutline outline = outlineNext(source);
     ASSERT_FALSE(outline.damage) << *outline.damage << " in object " << objects;
-    ASSERT_TRUE(outline.length) << "object " << objects;
+    ASSERT_TRUE(outline.length) << "object " << objects << " "
+                                << std::string(reinterpret_cast<const char*>(source.peek(60).data()), 60);
     std::string bytes(*outline.length, ' ');
     ASSERT_EQ(source.read(bytes.data(), bytes.size()), bytes.size());
     ++objects;
