@@ -6,6 +6,9 @@ namespace pos::eval {
 
 namespace {
 
+/// A stretch that falls short by rounding alone still counts (m or s).
+constexpr double kRounding = 1e-6;
+
 /// Where each sample lies on the axis along which a stretch is measured.
 std::vector<double> pathLengths(const ErrorSeries& series) {
   std::vector<double> s(series.size(), 0.0);
@@ -37,7 +40,7 @@ RelativeError overStretches(const ErrorSeries& series, const std::vector<double>
   std::vector<double> yaw;
   std::size_t j = 0;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    while (j < series.size() && at[j] - at[i] < stretch) ++j;
+    while (j < series.size() && at[j] - at[i] < stretch - kRounding) ++j;
     if (j == series.size()) break;
     translation.push_back(translationError(series[i], series[j]));
     if (series[i].yaw && series[j].yaw) yaw.push_back(wrapAngle(series[j].yaw->value - series[i].yaw->value));

@@ -81,7 +81,11 @@ double Scale::operator()(double value) const {
 }
 
 std::vector<double> Scale::ticks(int wanted) const {
-  if (!logarithmic) return niceTicks(low, high, wanted);
+  if (!logarithmic) {
+    std::vector<double> round = niceTicks(low, high, wanted);
+    for (int more = wanted + 1; round.size() < 3 && more < 12; ++more) round = niceTicks(low, high, more);
+    return round;
+  }
   std::vector<double> decades = logTicks(low, high);
   if (decades.size() >= 2) return decades;
   std::vector<double> all;
@@ -131,7 +135,8 @@ double drawLegend(Svg& svg, Pixel top_left, double width, const std::vector<Lege
     const double y = top_left.y + places[i].y + 0.5 * kLegendRow;
     switch (entries[i].sign) {
       case LegendEntry::Sign::Line:
-        svg.line({x, y}, {x + 22.0, y}, entries[i].classes + " curve");
+        svg.line({x, y}, {x + 22.0, y},
+                 entries[i].classes == "truth" ? "truth" : entries[i].classes + " curve");
         break;
       case LegendEntry::Sign::Square:
         svg.rect({x + 6.0, y - 6.0, 12.0, 12.0}, entries[i].classes);

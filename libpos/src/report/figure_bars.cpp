@@ -56,6 +56,13 @@ void drawBar(Svg& svg, double top, const BarRow& row) {
   svg.text({left + width + 10.0, top + 16.0}, grouped(row.tally->total()) + gated, "start small");
 }
 
+/// A factor to two digits: 0.83, 57, 600 000.
+std::string timesText(double factor) {
+  if (factor < 10.0) return rounded(factor);
+  const double power = std::pow(10.0, std::floor(std::log10(factor)) - 1.0);
+  return grouped(static_cast<unsigned long long>(std::llround(std::round(factor / power) * power)));
+}
+
 std::string barDrawing(const std::string& title, const std::vector<BarGroup>& groups) {
   const std::vector<LegendEntry> legend = verdictLegend();
   const double width = kFigureWidth - 2.0 * kRight;
@@ -136,7 +143,7 @@ std::optional<NamedFigure> computeFigure(const eval::RunSummary& run) {
   if (timed.empty()) return std::nullopt;
   const std::string title = "Compute time per measurement";
   const double top = kTitleHeight + 32.0;
-  const double width = kFigureWidth - kLabelWidth - kCountWidth - 40.0;
+  const double width = kFigureWidth - kLabelWidth - kCountWidth - 70.0;
   const Box box{kLabelWidth, top, width, 34.0 * static_cast<double>(timed.size()) + 8.0};
   Plot plot = plotOver(box, std::pow(10.0, std::floor(std::log10(std::max(0.5 * low, 1e-3)))),
                        std::pow(10.0, std::ceil(std::log10(std::max(1.2 * high, 2e-3)))), 0.0, 1.0);
@@ -161,7 +168,7 @@ std::optional<NamedFigure> computeFigure(const eval::RunSummary& run) {
     svg.text({box.left - 10.0, y + 17.0}, shortened(estimator.name, 30), "end");
     svg.text({box.right() + 10.0, y + 17.0},
              rounded(p50) + " / " + rounded(p99) + " us, " +
-                 rounded(estimator.compute.realTimeFactor(run.end - run.start)) + " x real time",
+                 timesText(estimator.compute.realTimeFactor(run.end - run.start)) + " x real time",
              "start small");
   }
   svg.rect(box, "frame");

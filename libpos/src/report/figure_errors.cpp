@@ -166,7 +166,7 @@ std::optional<NamedFigure> cdfFigure(const eval::RunSummary& run) {
   drawLegend(svg, {kLeft, kTitleHeight}, kPlotWidth, legend);
   drawAxes(svg, plot, {"horizontal error (m)", "share of the estimates (%)"});
   svg.line({box.left, plot.y(95.0)}, {box.right(), plot.y(95.0)}, "zero dash");
-  svg.text({box.right() - 6.0, plot.y(95.0) + 15.0}, "95 %", "end small muted halo");
+  svg.text({box.left + 6.0, plot.y(95.0) + 15.0}, "95 %", "start small muted halo");
   svg.beginClip(box);
   for (std::size_t i = 0; i < run.estimators.size(); ++i) {
     if (!hasErrors(run.estimators[i])) continue;

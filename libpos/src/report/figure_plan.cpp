@@ -110,11 +110,19 @@ void drawAnchors(Svg& svg, const Plot& plot, const std::vector<map::Anchor>& anc
   }
 }
 
+/// The longest of 1, 2 or 5 times a power of ten that is no longer than `most`; most > 0.
+double roundLength(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= most) return factor * power;
+  }
+  return power;
+}
+
 void drawScaleBar(Svg& svg, const Plot& plot) {
   const double metres_per_pixel = (plot.x.high - plot.x.low) / plot.box.width;
-  const std::vector<double> lengths = niceTicks(0.0, 160.0 * metres_per_pixel, 1);
-  const double length = lengths.size() > 1 ? lengths[1] : lengths.front();
-  const double pixels_long = std::max(length, metres_per_pixel) / metres_per_pixel;
+  const double length = roundLength(160.0 * metres_per_pixel);
+  const double pixels_long = length / metres_per_pixel;
   const double y = plot.box.bottom() - 14.0;
   const double x = plot.box.left + 14.0;
   svg.line({x, y}, {x + pixels_long, y}, "inkline");
@@ -176,12 +184,12 @@ std::optional<NamedFigure> planFigure(const eval::RunSummary& run) {
   drawAxes(svg, plot, {"x, east (m)", "y, north (m)"});
   svg.beginClip(plot.box);
   if (run.tunnel_map && run.tunnel_map->grid) drawGrid(svg, plot, *run.tunnel_map->grid);
+  svg.polyline(pixels(plot, run.truth_path), "truth");
   for (std::size_t i = 0; i < run.estimators.size(); ++i) {
     if (xy && &run.estimators[i] == best) continue;
     svg.polyline(pixels(plot, run.estimators[i].path), strokeClass(i) + " thin");
   }
   if (xy) drawColoured(svg, plot, best->path, saturation);
-  svg.polyline(pixels(plot, run.truth_path), "truth");
   if (run.tunnel_map) drawAnchors(svg, plot, run.tunnel_map->anchors);
   drawScaleBar(svg, plot);
   drawNorth(svg, plot);
@@ -189,7 +197,7 @@ std::optional<NamedFigure> planFigure(const eval::RunSummary& run) {
   if (xy) drawColourBar(svg, plot, saturation);
   return NamedFigure{
       "plan", "Plan view",
-      "Where each estimator thought the vehicle was, seen from above; the dotted line is the truth, "
+      "Where each estimator thought the vehicle was, seen from above; the broad grey line is the truth, "
       "numbered triangles are anchors, and paths that leave the frame are cut off.",
       svg.str()};
 }

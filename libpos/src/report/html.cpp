@@ -1,5 +1,8 @@
 #include "pos/report/html.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pos/report/comparison.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/text.hpp"
@@ -15,20 +18,20 @@ constexpr std::string_view kStyle = R"(<style>
 --accent:#4ea8de;--warn-back:#2e2412;--warn-line:#e0a030;--best:#15303f}}
 *{box-sizing:border-box}body{margin:0;background:var(--back);color:var(--ink);
 font:16px/1.5 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
-main{max-width:1080px;margin:0 auto;padding:28px 20px 60px}h1{font-size:1.7rem;line-height:1.2;margin:0 0 .3rem}
+main{max-width:1160px;margin:0 auto;padding:28px 20px 60px}h1{font-size:1.7rem;line-height:1.2;margin:0 0 .3rem}
 h2{font-size:1.2rem;margin:2.4rem 0 .7rem}.facts{color:var(--muted);display:flex;flex-wrap:wrap;gap:.2rem 1.6rem;margin:0}
 .facts div{display:flex;gap:.45rem}.facts dt{font-weight:600}.facts dd{margin:0;color:var(--ink);overflow-wrap:anywhere}
 .warnings{background:var(--warn-back);border-left:4px solid var(--warn-line);border-radius:4px;margin:1.4rem 0 0;
 padding:.7rem 1rem}.warnings ul{margin:.2rem 0 0;padding-left:1.2rem}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:6px}
-table{border-collapse:collapse;width:100%;font-size:.88rem;font-variant-numeric:tabular-nums}
-th,td{padding:.42rem .6rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
+table{border-collapse:collapse;width:100%;font-size:.86rem;font-variant-numeric:tabular-nums}
+th,td{padding:.42rem .5rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
 tr:last-child td,tr:last-child th{border-bottom:0}th:first-child,td:first-child{text-align:left}
 thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600}
 td.best{background:var(--best);font-weight:600}.star{color:var(--accent)}
 .note{color:var(--muted);font-size:.88rem;margin:.5rem 0 0}
 figure{margin:0 0 1.6rem;background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:14px 14px 10px}
-figure svg{display:block;width:100%;height:auto;max-width:1040px}
+figure svg{display:block;width:100%;height:auto;max-width:1120px}
 figcaption{color:var(--muted);font-size:.9rem;margin:.5rem .3rem 0;max-width:80ch}
 details{background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:.6rem 1rem}
 summary{cursor:pointer;font-weight:600}pre{overflow-x:auto;font-size:.85rem;line-height:1.4}
@@ -145,13 +148,21 @@ std::string verdictSection(const eval::RunSummary& run) {
          "honest filter gives; larger means that the sensor is noisier than its setting.</p>\n";
 }
 
+/// Decimals that show two digits of sigma, or four digits of the value where there is none.
+int decimalsFor(const NamedValue& v) {
+  const bool has_sigma = v.sigma > 0.0 && std::isfinite(v.sigma);
+  const double size = has_sigma ? v.sigma : std::abs(v.value);
+  if (!(size > 0.0) || !std::isfinite(size)) return 0;
+  return std::clamp((has_sigma ? 1 : 3) - static_cast<int>(std::floor(std::log10(size))), 0, 12);
+}
+
 std::string diagnosticsSection(const eval::RunSummary& run) {
   std::string rows;
   for (const eval::EstimatorSummary& estimator : run.estimators) {
     for (const NamedValue& v : estimator.diagnostics) {
       rows += "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th><td style=\"text-align:left\">" +
-              escaped(v.name) + "</td>" + element("td", fixed(v.value, 4)) +
-              element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, 4) : std::string(kNoValue)) +
+              escaped(v.name) + "</td>" + element("td", fixed(v.value, decimalsFor(v))) +
+              element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, decimalsFor(v)) : std::string(kNoValue)) +
               "</tr>\n";
     }
   }
