@@ -18,7 +18,7 @@ RangeBias corrected(const RangeBias& bias, const RangeTerm& term, const RangeSum
 }
 
 AnchorTable::AnchorTable(const map::TunnelMap& map, const RangeLikelihood& model) : model_(model) {
-  for (const map::Anchor& anchor : map.anchors) entries_[anchor.id] = Entry{anchor, {}, {}};
+  for (const map::Anchor& anchor : map.anchors) entries_[anchor.id] = Entry{anchor, {}, {}, {}};
   reset();
 }
 
@@ -32,16 +32,18 @@ RangeBias AnchorTable::biasAt(const Entry& entry, Stamp stamp) const {
   return predicted(entry.bias, model_, seconds(stamp - *entry.last));
 }
 
-void AnchorTable::setBias(AnchorId id, Stamp stamp, const RangeBias& bias) {
+void AnchorTable::note(AnchorId id, Stamp stamp, double odometer, const RangeBias& bias) {
   Entry& entry = entries_.at(id);
   entry.bias = bias;
   entry.last = stamp;
+  entry.odometer = odometer;
 }
 
 void AnchorTable::reset() {
   for (auto& [id, entry] : entries_) {
     entry.bias = {0.0, model_.bias_sigma * model_.bias_sigma};
     entry.last.reset();
+    entry.odometer.reset();
   }
 }
 

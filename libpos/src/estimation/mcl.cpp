@@ -15,10 +15,11 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x6d636c0000000001U;  // apart from every motion's numbers
 constexpr double kAllOutlier = 0.01;                    // a range less probably good than this is gated
-constexpr double kHitShare = 0.05;      // a scan in which fewer beams hit an obstacle is gated
-constexpr double kLost = 0.5;           // injection share from which nothing is gated any more
-constexpr double kMostInjected = 0.5;   // of the particles, in one go
-constexpr double kLeastExponent = 0.1;  // of a scan taken where the last one was
+constexpr double kHitShare = 0.05;  // a scan in which fewer beams hit an obstacle is gated
+constexpr double kLost =
+    0.5;  // injection share from which new particles are drawn and nothing is gated any more
+constexpr double kMostInjected = 0.5;    // of the particles, in one go
+constexpr double kLeastExponent = 0.02;  // of a reading taken where the last one was
 constexpr float kFarFromOrigin = 256.0F;
 
 void require(bool holds, const char* key, const char* expected) {
@@ -87,7 +88,8 @@ RandomStream& Mcl::fresh() {
   stream_ = RandomStream(config_.seed, kStream);
   step_ = 0;
   last_odometry_.reset();
-  travel_.reset();
+  odometer_ = 0.0;
+  scan_odometer_.reset();
   group_.reset();
   evidence_.clear();
   headings_fresh_ = false;
@@ -160,7 +162,7 @@ IngestReport Mcl::take(const OdometryIncrement& odometry, Stamp stamp) {
                      config_.seed, step_++);
   headings_fresh_ = false;
   last_odometry_ = stamp;
-  if (travel_) *travel_ += odometry.increment.translation().norm();
+  odometer_ += odometry.increment.translation().norm();
   stamp_ = stamp;
   return {.verdict = Verdict::Applied};
 }
@@ -172,7 +174,9 @@ Eigen::Vector3d Mcl::tagPosition(const BeaconRange& range) const {
   return range.tag_body.value_or(Eigen::Vector3d::Zero());
 }
 
-RangeTerm Mcl::rangeTerm(const BeaconRange& range, const map::Anchor& anchor, const RangeBias& bias) const {
+RangeTerm Mcl::rangeTerm(const BeaconRange& range, const AnchorTable::Entry& entry,
+                         const RangeBias& bias) const {
+  const map::Anchor& anchor = entry.anchor;
   const Eigen::Vector2d origin = started() ? set_.origin : Eigen::Vector2d::Zero();
   const double variance =
       config_.range.sigma * config_.range.sigma + anchor.survey_sigma * anchor.survey_sigma + bias.variance;
@@ -181,7 +185,8 @@ RangeTerm Mcl::rangeTerm(const BeaconRange& range, const map::Anchor& anchor, co
           .range = range.range - anchor.range_bias - bias.mean,
           .sigma = std::sqrt(variance),
           .outlier_probability = config_.range.outlier_probability,
-          .range_max = config_.range.range_max};
+          .range_max = config_.range.range_max,
+          .exponent = exponent(entry.odometer, config_.range.correlation_length)};
 }
 
 IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
@@ -189,13 +194,13 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   if (entry == nullptr) return {.verdict = Verdict::Degenerate, .reason = "the map has no such anchor"};
   if (!started()) {
     if (config_.start.mode == StartMode::Unknown && !map_->grid) {
-      startOnRing(stamp, rangeTerm(range, entry->anchor, entry->bias));
+      startOnRing(stamp, rangeTerm(range, *entry, entry->bias));
       return {.verdict = Verdict::Applied};
     }
     startAt(stamp);
   }
   const RangeBias bias = anchors_.biasAt(*entry, stamp);
-  RangeTerm term = rangeTerm(range, entry->anchor, bias);
+  RangeTerm term = rangeTerm(range, *entry, bias);
   RangeSums sums = range_weights_.evaluate(set_, headings(), term);
   noteRangeEvidence(stamp, sums.evidence);
   const double variance = term.sigma * term.sigma + sums.predicted_variance;
@@ -210,28 +215,27 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   }
   if (group_ && group_->stamp != stamp) {  // settle the earlier stamp first, then look again
     closeGroup();
-    term = rangeTerm(range, entry->anchor, bias);
+    term = rangeTerm(range, *entry, bias);
     sums = range_weights_.evaluate(set_, headings(), term);
   }
   openGroup(stamp);
   range_weights_.apply(set_);
   group_->ranges.push_back(term);
-  if (config_.range.bias_sigma > 0.0) anchors_.setBias(range.anchor, stamp, corrected(bias, term, sums));
+  anchors_.note(range.anchor, stamp, odometer_, corrected(bias, term, sums));
   return report;
 }
 
-double Mcl::scanExponent() const {
-  const double length = config_.scan.correlation_length;
-  if (length <= 0.0 || !travel_) return 1.0;
-  return std::clamp(*travel_ / length, kLeastExponent, 1.0);
+double Mcl::exponent(const std::optional<double>& last_odometer, double correlation_length) const {
+  if (correlation_length <= 0.0 || !last_odometer) return 1.0;
+  return std::clamp((odometer_ - *last_odometer) / correlation_length, kLeastExponent, 1.0);
 }
 
 IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   const lidar::BeamPoints points = beamPoints(scan, config_.scan);
   if (points.size() == 0) return {.verdict = Verdict::Degenerate, .reason = "no beam came back"};
   if (!started()) startAt(stamp);
-  const double exponent = scanExponent();
-  const double hit = scan_weights_->evaluate(set_, headings(), points, exponent);
+  const double power = exponent(scan_odometer_, config_.scan.correlation_length);
+  const double hit = scan_weights_->evaluate(set_, headings(), points, power);
   scan_recovery_.add(hit);
   const double p = config_.scan.outlier_probability;
   if (hit < p + kHitShare * (1.0 - p) && injectionShare() < kLost) {
@@ -239,13 +243,13 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   }
   if (group_ && group_->stamp != stamp) {
     closeGroup();
-    scan_weights_->evaluate(set_, headings(), points, exponent);
+    scan_weights_->evaluate(set_, headings(), points, power);
   }
   openGroup(stamp);
   scan_weights_->apply(set_);
   group_->scans.push_back(points);
-  group_->exponents.push_back(exponent);
-  travel_ = 0.0;
+  group_->exponents.push_back(power);
+  scan_odometer_ = odometer_;
   return {.verdict = Verdict::Applied};
 }
 
@@ -272,8 +276,9 @@ void Mcl::closeGroup() {
   foldRangeEvidence();
   if (!group_) return;
   const double log_evidence = filters::normalise(set_.log_weight);
-  injected_share_ = std::min(injectionShare(), kMostInjected);
-  if (injected_share_ * static_cast<double>(set_.size()) >= 1.0) {
+  const double share = injectionShare();
+  injected_share_ = share < kLost ? 0.0 : std::min(share, kMostInjected);
+  if (injected_share_ > 0.0) {
     inject(injected_share_, log_evidence);
   } else if (filters::EffectiveSizePolicy{config_.resample_below}.wantsResampling(set_.log_weight)) {
     resampler_.resample(set_, wantedCount(), stream_);

@@ -15,6 +15,7 @@ RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const Headings
   inlier_.resize(n);
   weight_.resize(n);
   outlier_ = static_cast<float>(term.outlier_probability / term.range_max);
+  exponent_ = static_cast<float>(term.exponent);
   const auto peak =
       static_cast<float>((1.0 - term.outlier_probability) / (std::sqrt(2.0 * kPi) * term.sigma));
   const auto scale = static_cast<float>(-0.5 / (term.sigma * term.sigma));
@@ -66,8 +67,10 @@ RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const Headings
 void RangeWeights::apply(filters::ParticleSet& set) const {
   float* lw = set.log_weight.data();
   const float* inlier = inlier_.data();
+  const float exponent = exponent_;
+  const float outlier = outlier_;
   const std::size_t n = set.size();
-  for (std::size_t i = 0; i < n; ++i) lw[i] += filters::fastLog(inlier[i] + outlier_);
+  for (std::size_t i = 0; i < n; ++i) lw[i] += exponent * filters::fastLog(inlier[i] + outlier);
 }
 
 }  // namespace pos::estimation

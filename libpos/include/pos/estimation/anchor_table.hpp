@@ -29,13 +29,15 @@ class AnchorTable {
   struct Entry {
     map::Anchor anchor;
     RangeBias bias;
-    std::optional<Stamp> last;
+    std::optional<Stamp> last;       ///< when a range to it was last applied
+    std::optional<double> odometer;  ///< m, and where
   };
   /// Null for an id the map does not have.
   const Entry* find(AnchorId id) const;
   /// The entry's bias at `stamp`.
   RangeBias biasAt(const Entry& entry, Stamp stamp) const;
-  void setBias(AnchorId id, Stamp stamp, const RangeBias& bias);
+  /// A range to this anchor was applied.
+  void note(AnchorId id, Stamp stamp, double odometer, const RangeBias& bias);
   void reset();
   const std::map<AnchorId, Entry>& entries() const { return entries_; }
 

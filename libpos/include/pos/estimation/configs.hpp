@@ -98,6 +98,9 @@ struct RangeLikelihood {
   double range_max = 100.0;          ///< m, an outlier lies uniformly in [0, range_max]
   double bias_sigma = 0.0;  ///< m, slowly varying offset per anchor, tracked beside the particles; 0 = none
   double bias_time = 30.0;  ///< s, correlation time of that offset
+  /// m: ranges to one anchor taken within this distance share their error (survey, antenna, reflections) and
+  /// count as one. 0 = every range counts in full.
+  double correlation_length = 2.5;
 };
 
 struct ScanLikelihood {

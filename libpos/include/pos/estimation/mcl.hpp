@@ -66,9 +66,9 @@ class Mcl : public Estimator {
   template <class R>
   bool uses() const;
 
-  RangeTerm rangeTerm(const BeaconRange& range, const map::Anchor& anchor, const RangeBias& bias) const;
+  RangeTerm rangeTerm(const BeaconRange& range, const AnchorTable::Entry& entry, const RangeBias& bias) const;
   Eigen::Vector3d tagPosition(const BeaconRange& range) const;
-  double scanExponent() const;
+  double exponent(const std::optional<double>& last_odometer, double correlation_length) const;
   void startAt(Stamp stamp);
   void startOnRing(Stamp stamp, const RangeTerm& term);
   RandomStream& fresh();
@@ -96,7 +96,8 @@ class Mcl : public Estimator {
   Stamp stamp_;
   std::uint64_t step_ = 0;  // counts motions: every one has its own random numbers
   std::optional<Stamp> last_odometry_;
-  std::optional<double> travel_;  // m since the last scan that was applied
+  double odometer_ = 0.0;                // m driven
+  std::optional<double> scan_odometer_;  // where the last scan was applied
   std::optional<Group> group_;
   std::vector<float> cosine_;
   std::vector<float> sine_;

@@ -19,6 +19,7 @@ struct RangeTerm {
   double sigma = 0.2;                                ///< m
   double outlier_probability = 0.1;                  ///< p
   double range_max = 100.0;                          ///< R, m
+  double exponent = 1.0;  ///< share of independent information: the likelihood is raised to this power
 };
 
 /// Cosine and sine of every particle's heading.
@@ -47,6 +48,7 @@ class RangeWeights {
   std::vector<float> inlier_;  // (1 - p) N(...), 1/m
   std::vector<float> weight_;
   float outlier_ = 0.0F;  // p / R, 1/m
+  float exponent_ = 1.0F;
 };
 
 }  // namespace pos::estimation
