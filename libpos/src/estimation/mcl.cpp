@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pos/core/error.hpp"
+#include "pos/estimation/mcl_checks.hpp"
 #include "pos/estimation/odometry_sigma.hpp"
 #include "pos/estimation/scan_points.hpp"
 #include "pos/filters/fast_math.hpp"
@@ -15,60 +15,10 @@ namespace {
 
 constexpr std::uint64_t kStream = 0x6d636c0000000001U;  // apart from every motion's numbers
 constexpr double kAllOutlier = 0.01;                    // a range less probably good than this is gated
-constexpr double kHitShare = 0.05;  // a scan in which fewer beams hit an obstacle is gated
-constexpr double kLost =
-    0.5;  // injection share from which new particles are drawn and nothing is gated any more
+constexpr double kHitShare = 0.05;       // a scan in which fewer beams hit an obstacle is gated
 constexpr double kMostInjected = 0.5;    // of the particles, in one go
 constexpr double kLeastExponent = 0.02;  // of a reading taken where the last one was
 constexpr float kFarFromOrigin = 256.0F;
-
-void require(bool holds, const char* key, const char* expected) {
-  if (holds) return;
-  throw ConfigError(
-      Complaint{.what = "the particle filter cannot be set up", .key = key, .expected = expected});
-}
-
-const MclConfig& checked(const MclConfig& config, const map::TunnelMap* map) {
-  require(map != nullptr, "map", "a map");
-  require(config.use_ranges || config.use_scans, "use_ranges", "use_ranges or use_scans (or both)");
-  require(!config.use_ranges || !map->anchors.empty(), "use_ranges", "a map with anchors");
-  require(!config.use_scans || map->grid.has_value(), "use_scans", "a map with an occupancy grid");
-  require(config.range.sigma > 0.0 && config.range.range_max > 0.0, "range", "sigma and range_max above 0 m");
-  require(config.range.outlier_probability > 0.0 && config.range.outlier_probability < 1.0,
-          "range.outlier_probability", "between 0 and 1, both excluded");
-  require(config.range.bias_sigma >= 0.0 && config.range.bias_time > 0.0, "range.bias_sigma",
-          "bias_sigma at least 0 m, bias_time above 0 s");
-  require(config.scan.beams > 0, "scan.beams", "at least 1");
-  require(config.scan.sigma > 0.0 && config.scan.distance_max > 0.0, "scan",
-          "sigma and distance_max above 0 m");
-  require(config.scan.outlier_probability > 0.0 && config.scan.outlier_probability < 1.0,
-          "scan.outlier_probability", "between 0 and 1, both excluded");
-  require(config.scan.tempering > 0.0 && config.scan.correlation_length >= 0.0, "scan.tempering",
-          "tempering above 0, correlation_length at least 0 m");
-  require(config.particles.min >= 2 && config.particles.max >= config.particles.min, "particles",
-          "2 <= min <= max");
-  require(config.particles.kld_epsilon > 0.0 && config.particles.bin_position > 0.0 &&
-              config.particles.bin_yaw > 0.0,
-          "particles", "kld_epsilon, bin_position (m) and bin_yaw (rad) above 0");
-  require(config.resample_below >= 0.0 && config.resample_below <= 1.0, "resample_below", "0 .. 1");
-  return config;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-void append(filters::ParticleSet& set, const filters::ParticleSet& more) {
-  const auto extend = [](std::vector<float>& to, const std::vector<float>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  extend(set.x, more.x);
-  extend(set.y, more.y);
-  extend(set.yaw, more.yaw);
-  extend(set.log_weight, more.log_weight);
-}
 
 }  // namespace
 
@@ -79,8 +29,7 @@ Mcl::Mcl(const MclConfig& config, std::shared_ptr<const map::TunnelMap> map)
       free_space_(*map_, config_.range.range_max),
       bins_(config_.particles.bin_position, config_.particles.bin_yaw),
       stream_(config_.seed, kStream),
-      range_recovery_(config_.injection_slow, config_.injection_fast),
-      scan_recovery_(config_.injection_slow, config_.injection_fast) {
+      lost_(config_.injection_slow, config_.injection_fast) {
   if (config_.use_scans) scan_weights_.emplace(*map_->grid, config_.scan);
 }
 
@@ -91,12 +40,10 @@ RandomStream& Mcl::fresh() {
   odometer_ = 0.0;
   scan_odometer_.reset();
   group_.reset();
-  evidence_.clear();
   headings_fresh_ = false;
   injected_share_ = 0.0;
   anchors_.reset();
-  range_recovery_ = {config_.injection_slow, config_.injection_fast};
-  scan_recovery_ = {config_.injection_slow, config_.injection_fast};
+  lost_ = {config_.injection_slow, config_.injection_fast};
   return stream_;
 }
 
@@ -117,13 +64,19 @@ void Mcl::startAt(Stamp stamp) {
   if (start.mode == StartMode::UnknownHeading) scatterHeadings(set_, stream_);
 }
 
-void Mcl::startOnRing(Stamp stamp, const RangeTerm& term) {
+filters::ParticleSet Mcl::particlesOnRing(const RangeTerm& term, std::size_t count) {
   const double height = term.anchor.z() - term.tag.z();
-  const Ring ring{.centre = term.anchor.head<2>(),
+  const Ring ring{.centre = set_.origin + term.anchor.head<2>(),
                   .radius = std::sqrt(std::max(0.0, term.range * term.range - height * height)),
                   .sigma = term.sigma + term.tag.head<2>().norm(),
                   .scattered = term.outlier_probability};
-  set_ = ringParticles(ring, free_space_, static_cast<std::size_t>(config_.particles.max), fresh());
+  return ringParticles(ring, free_space_, count, stream_);
+}
+
+void Mcl::startOnRing(Stamp stamp, const RangeTerm& term) {
+  fresh();
+  set_.origin.setZero();
+  set_ = particlesOnRing(term, static_cast<std::size_t>(config_.particles.max));
   stamp_ = stamp;
 }
 
@@ -201,14 +154,14 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   }
   const RangeBias bias = anchors_.biasAt(*entry, stamp);
   RangeTerm term = rangeTerm(range, *entry, bias);
-  RangeSums sums = range_weights_.evaluate(set_, headings(), term);
-  noteRangeEvidence(stamp, sums.evidence);
+  RangeSums sums = range_weights_.evaluate(set_, headings(set_), term);
+  lost_.noteRange(stamp, sums.evidence);
   const double variance = term.sigma * term.sigma + sums.predicted_variance;
   IngestReport report{.verdict = Verdict::Applied, .dof = 1};
   report.innovation = term.range - sums.predicted;
   report.innovation_sigma = std::sqrt(variance);
   report.nis = report.innovation * report.innovation / variance;
-  if (sums.inlier_share < kAllOutlier && injectionShare() < kLost) {
+  if (sums.inlier_share < kAllOutlier && !lost_.lost()) {
     report.verdict = Verdict::Gated;
     report.reason = "an outlier to every particle";
     return report;
@@ -216,7 +169,7 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   if (group_ && group_->stamp != stamp) {  // settle the earlier stamp first, then look again
     closeGroup();
     term = rangeTerm(range, *entry, bias);
-    sums = range_weights_.evaluate(set_, headings(), term);
+    sums = range_weights_.evaluate(set_, headings(set_), term);
   }
   openGroup(stamp);
   range_weights_.apply(set_);
@@ -235,15 +188,15 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   if (points.size() == 0) return {.verdict = Verdict::Degenerate, .reason = "no beam came back"};
   if (!started()) startAt(stamp);
   const double power = exponent(scan_odometer_, config_.scan.correlation_length);
-  const double hit = scan_weights_->evaluate(set_, headings(), points, power);
-  scan_recovery_.add(hit);
+  const double hit = scan_weights_->evaluate(set_, headings(set_), points, power);
+  lost_.noteScan(hit);
   const double p = config_.scan.outlier_probability;
-  if (hit < p + kHitShare * (1.0 - p) && injectionShare() < kLost) {
+  if (hit < p + kHitShare * (1.0 - p) && !lost_.lost()) {
     return {.verdict = Verdict::Gated, .reason = "the scan fits the map nowhere near the particles"};
   }
   if (group_ && group_->stamp != stamp) {
     closeGroup();
-    scan_weights_->evaluate(set_, headings(), points, power);
+    scan_weights_->evaluate(set_, headings(set_), points, power);
   }
   openGroup(stamp);
   scan_weights_->apply(set_);
@@ -253,12 +206,12 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   return {.verdict = Verdict::Applied};
 }
 
-Headings Mcl::headings() {
-  if (!headings_fresh_ || cosine_.size() != set_.size()) {
-    cosine_.resize(set_.size());
-    sine_.resize(set_.size());
-    for (std::size_t i = 0; i < set_.size(); ++i) {
-      const filters::SineCosine heading = filters::fastSineCosine(set_.yaw[i]);
+Headings Mcl::headings(const filters::ParticleSet& set) {
+  if (!headings_fresh_ || cosine_.size() != set.size()) {
+    cosine_.resize(set.size());
+    sine_.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const filters::SineCosine heading = filters::fastSineCosine(set.yaw[i]);
       cosine_[i] = heading.cosine;
       sine_[i] = heading.sine;
     }
@@ -273,11 +226,10 @@ void Mcl::openGroup(Stamp stamp) {
 }
 
 void Mcl::closeGroup() {
-  foldRangeEvidence();
+  lost_.settle();
   if (!group_) return;
   const double log_evidence = filters::normalise(set_.log_weight);
-  const double share = injectionShare();
-  injected_share_ = share < kLost ? 0.0 : std::min(share, kMostInjected);
+  injected_share_ = std::min(lost_.share(), kMostInjected);
   if (injected_share_ > 0.0) {
     inject(injected_share_, log_evidence);
   } else if (filters::EffectiveSizePolicy{config_.resample_below}.wantsResampling(set_.log_weight)) {
@@ -290,54 +242,11 @@ void Mcl::closeGroup() {
   group_.reset();
 }
 
-void Mcl::noteRangeEvidence(Stamp stamp, double evidence) {
-  if (stamp != evidence_stamp_) foldRangeEvidence();
-  evidence_stamp_ = stamp;
-  evidence_.push_back(evidence);
-}
-
-void Mcl::foldRangeEvidence() {
-  if (evidence_.empty()) return;
-  range_recovery_.add(median(evidence_));
-  evidence_.clear();
-}
-
-double Mcl::injectionShare() const {
-  double share = 1.0;  // both kinds of reading must agree that the filter is lost
-  if (range_recovery_.started()) share = std::min(share, range_recovery_.injectionShare());
-  if (scan_recovery_.started()) share = std::min(share, scan_recovery_.injectionShare());
-  return range_recovery_.started() || scan_recovery_.started() ? share : 0.0;
-}
-
 std::size_t Mcl::wantedCount() {
   const std::size_t bins = bins_.count(set_, resampler_.ancestors(set_.log_weight, set_.size(), 0.5));
   const double wanted = filters::kldSampleSize(bins, config_.particles.kld_epsilon, config_.particles.kld_z);
   return static_cast<std::size_t>(std::clamp(std::ceil(wanted), static_cast<double>(config_.particles.min),
                                              static_cast<double>(config_.particles.max)));
-}
-
-void Mcl::inject(double share, double log_evidence) {
-  const std::size_t count = wantedCount();
-  const auto drawn = static_cast<std::size_t>(std::ceil(share * static_cast<double>(count)));
-  filters::ParticleSet newcomers = free_space_.particles(drawn, stream_);
-  moveOrigin(newcomers, set_.origin);
-  resampler_.resample(set_, count - drawn, stream_);
-  std::swap(set_, newcomers);  // the readings that called for them weigh the newcomers too
-  headings_fresh_ = false;
-  for (const RangeTerm& term : group_->ranges) {
-    range_weights_.evaluate(set_, headings(), term);
-    range_weights_.apply(set_);
-  }
-  for (std::size_t k = 0; k < group_->scans.size(); ++k) {
-    scan_weights_->evaluate(set_, headings(), group_->scans[k], group_->exponents[k]);
-    scan_weights_->apply(set_);
-  }
-  std::swap(set_, newcomers);
-  // Prior (1 - share) old + share new; the old ones' mean likelihood is the evidence.
-  for (float& lw : set_.log_weight) lw += static_cast<float>(std::log1p(-share));
-  for (float& lw : newcomers.log_weight) lw += static_cast<float>(std::log(share) - log_evidence);
-  append(set_, newcomers);
-  filters::normalise(set_.log_weight);
 }
 
 std::optional<Estimate> Mcl::estimateAt(Stamp stamp) const {

@@ -19,12 +19,12 @@
 #include "pos/estimation/anchor_table.hpp"
 #include "pos/estimation/configs.hpp"
 #include "pos/estimation/estimator.hpp"
+#include "pos/estimation/lost_detector.hpp"
 #include "pos/estimation/particle_start.hpp"
 #include "pos/estimation/range_likelihood.hpp"
 #include "pos/estimation/scan_weights.hpp"
 #include "pos/filters/kld.hpp"
 #include "pos/filters/particle_set.hpp"
-#include "pos/filters/recovery.hpp"
 #include "pos/filters/resampling.hpp"
 #include "pos/map/tunnel_map.hpp"
 
@@ -71,16 +71,16 @@ class Mcl : public Estimator {
   double exponent(const std::optional<double>& last_odometer, double correlation_length) const;
   void startAt(Stamp stamp);
   void startOnRing(Stamp stamp, const RangeTerm& term);
+  filters::ParticleSet particlesOnRing(const RangeTerm& term, std::size_t count);
   RandomStream& fresh();
 
-  Headings headings();
+  Headings headings(const filters::ParticleSet& set);
   void openGroup(Stamp stamp);
   void closeGroup();
-  void noteRangeEvidence(Stamp stamp, double evidence);
-  void foldRangeEvidence();
-  double injectionShare() const;
   std::size_t wantedCount();
   void inject(double share, double log_evidence);
+  filters::ParticleSet newcomers(std::size_t count);
+  void weighByGroup(filters::ParticleSet& set);
 
   MclConfig config_;
   std::shared_ptr<const map::TunnelMap> map_;
@@ -103,10 +103,7 @@ class Mcl : public Estimator {
   std::vector<float> sine_;
   bool headings_fresh_ = false;
 
-  filters::LikelihoodAverages range_recovery_;
-  filters::LikelihoodAverages scan_recovery_;
-  Stamp evidence_stamp_;
-  std::vector<double> evidence_;  // of the ranges of evidence_stamp_, gated ones too
+  LostDetector lost_;
   double injected_share_ = 0.0;
 };
 
