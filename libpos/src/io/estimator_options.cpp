@@ -73,6 +73,9 @@ OptionTable<RangeLikelihood> rangeLikelihoodOptions() {
               "Longest range; an outlier lies anywhere below it.")
       .number("bias_sigma_m", &RangeLikelihood::bias_sigma, between(0, 100),
               "Slowly varying offset of each anchor, tracked beside the particles; 0 means none.")
+      .number("bias_time_s", &RangeLikelihood::bias_time, moreThan(0), "Correlation time of that offset.")
+      .number("correlation_length_m", &RangeLikelihood::correlation_length, between(0, 1000),
+              "Ranges to one anchor taken within this way share their error and count as one; 0 counts all.")
       .check(kValid);
 }
 
@@ -87,7 +90,9 @@ OptionTable<ScanLikelihood> scanLikelihoodOptions() {
       .number("distance_max_m", &ScanLikelihood::distance_max, between(0.01, 1000),
               "Distances to the nearest wall count as this at most.")
       .number("tempering", &ScanLikelihood::tempering, between(0.0001, 1),
-              "Exponent on the scan's likelihood, below 1 for beams that are not independent.")
+              "Further exponent on the scan's likelihood.")
+      .number("correlation_length_m", &ScanLikelihood::correlation_length, between(0, 1000),
+              "Beams ending, and scans taken, this near each other share their error and count as one; 0 counts all.")
       .check(kValid);
 }
 
