@@ -7,7 +7,7 @@ namespace pos::estimation {
 namespace {
 
 using State = RangeState;
-using Term = RangeTerm;
+using Term = StateTerm;
 
 double square(double value) {
   return value * value;

@@ -17,7 +17,7 @@ constexpr int kRestartAfterOpenings =
 constexpr std::array kTermNames{"velocity_x_m_per_s",  "velocity_y_m_per_s", "yaw_rate_rad_per_s",
                                 "gyro_bias_rad_per_s", "wheel_scale",        "range_scale",
                                 "range_offset_m",      "latency_s"};
-static_assert(kTermNames.size() == kRangeTerms);
+static_assert(kTermNames.size() == kStateTerms);
 
 double square(double value) {
   return value * value;
@@ -265,8 +265,8 @@ Diagnostics RangeOdometry::diagnostics() const {
   const auto add = [&](const std::string& name, int row) {
     values.push_back({name, belief.mean.values[row], std::sqrt(belief.covariance(row, row))});
   };
-  for (std::size_t i = 0; i < kRangeTerms; ++i) {
-    if (const auto row = layout_.row(static_cast<RangeTerm>(i))) add(kTermNames[i], *row);
+  for (std::size_t i = 0; i < kStateTerms; ++i) {
+    if (const auto row = layout_.row(static_cast<StateTerm>(i))) add(kTermNames[i], *row);
   }
   for (const AnchorId anchor : layout_.anchors()) {
     add("anchor_" + std::to_string(anchor) + "_offset_m", *layout_.anchorRow(anchor));

@@ -130,20 +130,20 @@ Belief<RangeState> startBelief(const RangeOdometryConfig& config, const RangeLay
   belief.covariance = TangentMatrix<RangeState>::Zero(n, n);
   belief.mean.values.head<3>() << pose.mean.x, pose.mean.y, pose.mean.yaw;
   belief.covariance.topLeftCorner<3, 3>() = pose.covariance;
-  const auto prior = [&](RangeTerm term, double variance) {
+  const auto prior = [&](StateTerm term, double variance) {
     if (const auto row = layout.row(term)) {
       belief.mean.values[*row] = layout.held(term);
       belief.covariance(*row, *row) = variance;
     }
   };
-  prior(RangeTerm::VelocityX, square(config.max_speed / 3.0));
-  prior(RangeTerm::VelocityY, square(config.max_speed / 3.0));
-  prior(RangeTerm::YawRate, square(0.3));
-  prior(RangeTerm::GyroBias, priorVariance(config.gyro_bias));
-  prior(RangeTerm::WheelScale, priorVariance(config.wheel_scale));
-  prior(RangeTerm::RangeScale, priorVariance(config.range_scale));
-  prior(RangeTerm::RangeOffset, priorVariance(config.range_offset));
-  prior(RangeTerm::Latency, priorVariance(config.latency));
+  prior(StateTerm::VelocityX, square(config.max_speed / 3.0));
+  prior(StateTerm::VelocityY, square(config.max_speed / 3.0));
+  prior(StateTerm::YawRate, square(0.3));
+  prior(StateTerm::GyroBias, priorVariance(config.gyro_bias));
+  prior(StateTerm::WheelScale, priorVariance(config.wheel_scale));
+  prior(StateTerm::RangeScale, priorVariance(config.range_scale));
+  prior(StateTerm::RangeOffset, priorVariance(config.range_offset));
+  prior(StateTerm::Latency, priorVariance(config.latency));
   for (const AnchorId anchor : layout.anchors()) {
     const int row = *layout.anchorRow(anchor);
     belief.mean.values[row] = config.anchor_offset.value;

@@ -7,29 +7,29 @@
 
 namespace pos::estimation {
 namespace {
-constexpr std::size_t at(RangeTerm term) {
+constexpr std::size_t at(StateTerm term) {
   return static_cast<std::size_t>(term);
 }
 }  // namespace
 
 RangeLayout::RangeLayout(const RangeOdometryConfig& config, const std::vector<AnchorId>& anchors) {
   rows_.fill(-1);
-  const auto place = [this](RangeTerm term, bool freed, double value) {
+  const auto place = [this](StateTerm term, bool freed, double value) {
     held_[at(term)] = value;
     if (freed) rows_[at(term)] = size_++;
   };
   const bool moving = config.motion == RangeOdometryConfig::Motion::ConstantVelocity;
-  place(RangeTerm::VelocityX, moving, 0.0);
-  place(RangeTerm::VelocityY, moving, 0.0);
-  place(RangeTerm::YawRate, moving, 0.0);
-  const auto placeCalibration = [&place](RangeTerm term, const CalibrationState& c) {
+  place(StateTerm::VelocityX, moving, 0.0);
+  place(StateTerm::VelocityY, moving, 0.0);
+  place(StateTerm::YawRate, moving, 0.0);
+  const auto placeCalibration = [&place](StateTerm term, const CalibrationState& c) {
     place(term, c.sigma > 0.0, c.value);
   };
-  placeCalibration(RangeTerm::GyroBias, config.gyro_bias);
-  placeCalibration(RangeTerm::WheelScale, config.wheel_scale);
-  placeCalibration(RangeTerm::RangeScale, config.range_scale);
-  placeCalibration(RangeTerm::RangeOffset, config.range_offset);
-  placeCalibration(RangeTerm::Latency, config.latency);
+  placeCalibration(StateTerm::GyroBias, config.gyro_bias);
+  placeCalibration(StateTerm::WheelScale, config.wheel_scale);
+  placeCalibration(StateTerm::RangeScale, config.range_scale);
+  placeCalibration(StateTerm::RangeOffset, config.range_offset);
+  placeCalibration(StateTerm::Latency, config.latency);
   if (config.anchor_offset.sigma <= 0.0) return;
   first_anchor_row_ = size_;
   anchors_ = anchors;
@@ -45,7 +45,7 @@ RangeLayout::RangeLayout(const RangeOdometryConfig& config, const std::vector<An
   }
 }
 
-std::optional<int> RangeLayout::row(RangeTerm term) const {
+std::optional<int> RangeLayout::row(StateTerm term) const {
   const int row = rows_[at(term)];
   return row < 0 ? std::nullopt : std::optional<int>(row);
 }
@@ -56,13 +56,13 @@ std::optional<int> RangeLayout::anchorRow(AnchorId anchor) const {
   return first_anchor_row_ + static_cast<int>(found - anchors_.begin());
 }
 
-double RangeState::value(const RangeLayout& layout, RangeTerm term) const {
+double RangeState::value(const RangeLayout& layout, StateTerm term) const {
   const auto row = layout.row(term);
   return row ? values[*row] : layout.held(term);
 }
 
 Eigen::Vector2d RangeState::velocity(const RangeLayout& layout) const {
-  return {value(layout, RangeTerm::VelocityX), value(layout, RangeTerm::VelocityY)};
+  return {value(layout, StateTerm::VelocityX), value(layout, StateTerm::VelocityY)};
 }
 
 RangeState plus(const RangeState& x, const Tangent<RangeState>& d) {

@@ -31,11 +31,13 @@ bool hasKey(const TableCore& table, const std::string& key) {
 
 /// The same quantity under another unit, or with its unit left out.
 std::optional<std::string> unitAdvice(const std::string& key, const std::vector<std::string>& known) {
-  for (const std::string& right : known) {
-    if (stemOf(right) != stemOf(key) || unitOf(right).suffix.empty()) continue;
-    return (key == stemOf(key) ? "the unit belongs in the key: use " : "wrong unit: use ") + right;
+  std::string right;
+  for (const std::string& name : known) {
+    if (stemOf(name) == stemOf(key) && !unitOf(name).suffix.empty())
+      right += (right.empty() ? "" : " or ") + name;
   }
-  return std::nullopt;
+  if (right.empty()) return std::nullopt;
+  return (key == stemOf(key) ? "the unit belongs in the key: use " : "wrong unit: use ") + right;
 }
 
 /// The key exists, but in a table one level down, or under another alternative.

@@ -72,6 +72,18 @@ void requireOrder(const FaultConfig& faults) {
   }
 }
 
+/// Runs a rule of an inner table, so that its complaint names the whole key.
+template <class Rule>
+void withKeyPrefix(const std::string& prefix, Rule rule) {
+  try {
+    rule();
+  } catch (const ConfigError& error) {
+    Complaint complaint = error.complaint();
+    complaint.key = joinedPath(prefix, complaint.key);
+    throw ConfigError(complaint);
+  }
+}
+
 OptionTable<TruthSource> truthOptions() {
   return OptionTable<TruthSource>("truth", "Reference poses for the evaluation.")
       .path("file", &TruthSource::file, "File of the reference poses; none for format: log.")
@@ -178,9 +190,12 @@ OptionTable<RunConfig> runOptions() {
 RunConfig validated(RunConfig config) {
   requireUniqueEstimators(config.estimators);
   requireUniqueSensors(config.sensors);
-  if (config.truth) requireTruthFile(*config.truth);
-  requireOrder(config.faults);
-  for (const EstimatorEntry& entry : config.estimators) (void)validated(entry.config);
+  if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
+  withKeyPrefix("faults", [&] { requireOrder(config.faults); });
+  for (std::size_t i = 0; i < config.estimators.size(); ++i) {
+    withKeyPrefix("estimators[" + std::to_string(i) + "]",
+                  [&] { (void)validated(config.estimators[i].config); });
+  }
   return config;
 }
 

@@ -31,7 +31,7 @@ std::vector<RangeState> states(const RangeLayout& layout) {
     x.values[0] = random.uniform(-20.0, 20.0);
     x.values[1] = random.uniform(-20.0, 20.0);
     x.values[2] = yaw;
-    for (const RangeTerm scale : {RangeTerm::WheelScale, RangeTerm::RangeScale}) {
+    for (const StateTerm scale : {StateTerm::WheelScale, StateTerm::RangeScale}) {
       if (const auto row = layout.row(scale)) x.values[*row] = 1.0 + random.normal(0.0, 0.05);
     }
     result.push_back(x);
@@ -169,9 +169,9 @@ TEST(RangeLayout, HoldsTermsWithoutSigmaAndFreesTheOthers) {
   config.range_offset = {0.3, 0.0, 0.0};
   const RangeLayout layout(config, {4, 2});
   EXPECT_EQ(layout.size(), 4);
-  EXPECT_EQ(layout.row(RangeTerm::RangeScale), 3);
-  EXPECT_FALSE(layout.row(RangeTerm::RangeOffset));
-  EXPECT_DOUBLE_EQ(layout.held(RangeTerm::RangeOffset), 0.3);
+  EXPECT_EQ(layout.row(StateTerm::RangeScale), 3);
+  EXPECT_FALSE(layout.row(StateTerm::RangeOffset));
+  EXPECT_DOUBLE_EQ(layout.held(StateTerm::RangeOffset), 0.3);
   EXPECT_FALSE(layout.anchorRow(4));
 }
 

@@ -133,6 +133,38 @@ TEST(ConfigRun, KeyOfAnotherTypeIsExplained) {
   EXPECT_EQ(complaint.suggestion, "this key belongs to type: mcl");
 }
 
+TEST(ConfigRun, WrongUnitOfSeveralKeysNamesThemAll) {
+  const Complaint complaint =
+      refusal(std::string(kHead) + "  - {name: a, type: mcl, odometry_noise: {yaw_rad_per_sqrt_s: 1}}\n");
+  EXPECT_EQ(complaint.suggestion,
+            "wrong unit: use yaw_deg_per_sqrt_m or yaw_deg_per_sqrt_deg or yaw_deg_per_sqrt_s");
+}
+
+TEST(ConfigRun, TypeNamesAreThoseOfTheFile) {
+  const RunConfig run = load(kFullConfig);
+  const YamlDocument document = parseYaml(resolvedYaml(run), "run.yaml");
+  for (std::size_t i = 0; i < run.estimators.size(); ++i) {
+    EXPECT_EQ(document.root.find("estimators")->items[i].find("type")->text,
+              typeName(run.estimators[i].config));
+  }
+}
+
+TEST(ConfigRun, ValidatedFindsWhatTheReaderFinds) {
+  RunConfig run = load(kFullConfig);
+  EXPECT_EQ(validated(run), run);
+  run.estimators[1].name = run.estimators[0].name;
+  EXPECT_EQ(complaintOf([&] { return validated(run); }).key, "estimators[1].name");
+  run = load(kFullConfig);
+  std::get<MclConfig>(run.estimators[2].config).range.sigma = -1.0;
+  EXPECT_EQ(complaintOf([&] { return validated(run); }).key, "estimators[2].range.sigma_m");
+  run = load(kFullConfig);
+  run.faults.range_outlier_min = 100.0;
+  EXPECT_EQ(complaintOf([&] { return validated(run); }).key, "faults.range_outlier_min_m");
+  run.faults = {};
+  run.truth->file.reset();
+  EXPECT_EQ(complaintOf([&] { return validated(run); }).key, "truth.file");
+}
+
 TEST(ConfigRun, UnknownTypeIsRefusedWithTheNearestOne) {
   const Complaint complaint = refusal(std::string(kHead) + "  - {name: a, type: range_odometri}\n");
   EXPECT_EQ(complaint.key, "estimators[0].type");

@@ -54,6 +54,20 @@ TEST(OptionsDocs, ReferenceAndSchemaListEveryKey) {
   expectComplete(mapOptions());
 }
 
+void expectUniqueKeys(const TableCore& table, const std::set<std::string>& outer) {
+  std::set<std::string> keys = outer;
+  for (const OptionRow& row : table.rows) {
+    EXPECT_TRUE(keys.insert(row.option.key).second) << row.option.key;
+    if (row.table) expectUniqueKeys(*row.table, {});
+  }
+  for (const Alternative& alternative : table.alternatives) expectUniqueKeys(*alternative.table, keys);
+}
+
+TEST(OptionsDocs, NoTableBindsAKeyTwice) {
+  expectUniqueKeys(*runOptions().core(), {});
+  expectUniqueKeys(*mapOptions().core(), {});
+}
+
 TEST(OptionsDocs, EveryKeyIsExplainedInASentence) {
   expectSentences(*runOptions().core());
   expectSentences(*mapOptions().core());

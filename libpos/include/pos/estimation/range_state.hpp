@@ -14,7 +14,7 @@
 namespace pos::estimation {
 
 /// Terms beside the pose. Each is either a state or held at a configured value.
-enum class RangeTerm : std::size_t {
+enum class StateTerm : std::size_t {
   VelocityX,    ///< m/s, map axes
   VelocityY,    ///< m/s, map axes
   YawRate,      ///< rad/s
@@ -24,7 +24,7 @@ enum class RangeTerm : std::size_t {
   RangeOffset,  ///< m, added to every range
   Latency,      ///< s, a range tells of this long before its stamp
 };
-inline constexpr std::size_t kRangeTerms = 8;
+inline constexpr std::size_t kStateTerms = 8;
 
 /// Where each term sits in the state vector: [x y yaw, freed terms in the enum's order, one offset per
 /// anchor].
@@ -36,15 +36,15 @@ class RangeLayout {
 
   int size() const { return size_; }
   /// Row of a freed term; nothing for a held one.
-  std::optional<int> row(RangeTerm term) const;
+  std::optional<int> row(StateTerm term) const;
   /// Row of this anchor's offset; nothing where offsets are not states or the anchor is unknown.
   std::optional<int> anchorRow(AnchorId anchor) const;
-  double held(RangeTerm term) const { return held_[static_cast<std::size_t>(term)]; }
+  double held(StateTerm term) const { return held_[static_cast<std::size_t>(term)]; }
   const std::vector<AnchorId>& anchors() const { return anchors_; }
 
  private:
-  std::array<int, kRangeTerms> rows_{};
-  std::array<double, kRangeTerms> held_{};
+  std::array<int, kStateTerms> rows_{};
+  std::array<double, kStateTerms> held_{};
   std::vector<AnchorId> anchors_;  // sorted; empty unless offsets are states
   int first_anchor_row_ = 0;
   int size_ = 3;
@@ -59,7 +59,7 @@ struct RangeState {
 
   Pose2 pose() const { return {values[0], values[1], values[2]}; }
   auto position() const { return values.head<2>(); }
-  double value(const RangeLayout& layout, RangeTerm term) const;
+  double value(const RangeLayout& layout, StateTerm term) const;
   Eigen::Vector2d velocity(const RangeLayout& layout) const;
 };
 
