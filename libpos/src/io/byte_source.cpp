@@ -9,7 +9,7 @@
 namespace pos::io {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 18U;
+constexpr std::size_t kBlock = std::size_t{1} << 14U;
 
 gzFile opened(const std::string& path) {
   std::error_code error;

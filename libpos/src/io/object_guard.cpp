@@ -35,7 +35,7 @@ constexpr std::array<Layouts, 15> kLayouts{{
     {"CObservationBeaconRanges", 0, {"12 { o 8 }", "12 { o 8 } o", "12 { o 8 } o s", "12 { o 8 } o s 8"}},
     {"CObservationOdometry", 0, {"o s 8", "o s 8 1 8 1 8", "o s 8 ?8 ?24"}},
     {"CObservation2DRangeScan", 6, {"9 o v5 16 s 8", "9 o v5 16 s 8 i"}},
-    {"CObservationRobotPose", 1, {"o o s 8"}},
+    {"CObservationRobotPose", 1, {"o s 8 o"}},
     {"CObservationComment", 0, {"s 8"}},
     {"CObservationGPS", 10, {"16 s o { G }", "16 s o 1 { G }"}},
 }};
