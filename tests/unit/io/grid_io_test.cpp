@@ -76,7 +76,7 @@ TEST(MrptGrid, MissingForeignAndCutFilesAreExplained) {
 }
 
 TEST(MrptGrid, TheUwbDemosMapLoads) {
-  const std::string path = "/usr/share/mrpt/datasets/uwb_ro-localization_demo.gridmap.gz";
+  const std::string path = "/usr/share/mrpt/datasets/uwb_ro-localization_demo_map.gridmap.gz";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "install mrpt-common to run this test: no " << path;
   const OccupancyGrid grid = loadGrid(path);
   EXPECT_GT(grid.columns, 50);
