@@ -26,16 +26,16 @@ constexpr std::array<Layouts, 15> kLayouts{{
     {"CPoint3D", 0, {"12", "24"}},
     {"CPose2D", 0, {"12", "24"}},
     {"CPose3D", 1, {"o", "56", "96"}},
+    {"CObservationIMU", 0, {"o v1 8 v4 s", "o v1 8 v8 s", "o v1 8 v8 s", "o v1 8 v8 s", "o 31 8 248 s"}},
+    {"CObservationBeaconRanges", 0, {"12 { o 8 }", "12 { o 8 } o", "12 { o 8 } o s", "12 { o 8 } o s 8"}},
     {"CMatrixD", 0, {"X"}},
     {"CPose3DPDFGaussian", 1, {"o 168"}},
     {"CActionCollection", 0, {"{ o }"}},
     {"CSensoryFrame", 0, {"4 8 { o }", "4 { o }", "{ o }"}},
     {"CActionRobotMovement2D", 5, {"M 1 8 1 8", "M 1 8 1 8 8", "M ?24 ?8 8"}},
-    {"CObservationIMU", 0, {"o v1 8 v4 s", "o v1 8 v8 s", "o v1 8 v8 s", "o v1 8 v8 s", "o 31 8 248 s"}},
-    {"CObservationBeaconRanges", 0, {"12 { o 8 }", "12 { o 8 } o", "12 { o 8 } o s", "12 { o 8 } o s 8"}},
     {"CObservationOdometry", 0, {"o s 8", "o s 8 1 8 1 8", "o s 8 ?8 ?24"}},
     {"CObservation2DRangeScan", 6, {"9 o v5 16 s 8", "9 o v5 16 s 8 i"}},
-    {"CObservationRobotPose", 1, {"o o s 8"}},
+    {"CObservationRobotPose", 1, {"o s 8 o"}},
     {"CObservationComment", 0, {"s 8"}},
     {"CObservationGPS", 10, {"16 s o { G }", "16 s o 1 { G }"}},
 }};
@@ -67,7 +67,8 @@ class Walk {
     at_ += sizeof(T);
     return result;
   }
-  std::string_view header(bool& old_format, int& version);
+  /// Null for a null object.
+  const Layouts* header(bool& old_format, int& version);
   void layout(std::string_view words);
   void group(std::string_view words);
   void odometryModel();
@@ -105,41 +106,34 @@ void Walk::skip(std::uint64_t count) {
   at_ += count;
 }
 
-/// Class name without namespace; empty for a null object.
-std::string_view Walk::header(bool& old_format, int& version) {
+const Layouts* Walk::header(bool& old_format, int& version) {
   const auto first = value<std::uint8_t>();
   old_format = (first & 0x80U) == 0;
   if (old_format) skip(3);
   const std::size_t length = first & 0x7FU;
   std::string_view name(reinterpret_cast<const char*>(bytes(length)), length);
-  const bool null = name == "nullptr";
   if (const auto colon = name.rfind(':'); colon != std::string_view::npos) name.remove_prefix(colon + 1);
-  std::string_view known;
-  for (const Layouts& layouts : kLayouts) {
-    if (layouts.name == name) known = layouts.name;
-  }
-  if (known.empty() && !null) throw Unknown{};
+  const bool null = name == "nullptr";
+  const auto* const known = std::find_if(kLayouts.begin(), kLayouts.end(),
+                                         [&](const Layouts& layouts) { return layouts.name == name; });
+  if (known == kLayouts.end() && !null) throw Unknown{};
   at_ += length;
-  version = 0;
   if (old_format) {
     version = value<std::int32_t>();
   } else if (!null) {
     version = value<std::uint8_t>();
   }
-  return known;
+  return null ? nullptr : known;
 }
 
 void Walk::object() {
   if (++depth_ > kDeepest) throw Damage{"objects are nested too deeply"};
   bool old_format = false;
   int version = 0;
-  const std::string_view name = header(old_format, version);
-  if (!name.empty()) {
-    const auto* const found =
-        std::find_if(kLayouts.begin(), kLayouts.end(), [&](const Layouts& l) { return l.name == name; });
-    const int index = version - found->first_version;
-    if (index < 0 || index >= static_cast<int>(found->versions.size())) throw Unknown{};
-    const std::string_view words = found->versions[static_cast<std::size_t>(index)];
+  if (const Layouts* const known = header(old_format, version); known != nullptr) {
+    const int index = version - known->first_version;
+    if (index < 0 || index >= static_cast<int>(known->versions.size())) throw Unknown{};
+    const std::string_view words = known->versions[static_cast<std::size_t>(index)];
     if (words.empty()) throw Unknown{};
     layout(words);
   }

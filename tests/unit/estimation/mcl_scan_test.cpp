@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mcl_scene.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/scan_points.hpp"
+#include "support/mcl_scene.hpp"
 
 namespace pos::estimation {
 namespace {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mcl_scene.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
+#include "support/mcl_scene.hpp"
 
 namespace pos::estimation {
 namespace {

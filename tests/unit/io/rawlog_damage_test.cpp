@@ -119,7 +119,7 @@ TEST(RawlogDamage, FlippedBytesAreReportedAndACorruptClassNameIsPrintable) {
 TEST(RawlogDamage, FlippedBytesInAGzipAreReported) {
   const ScratchFolder folder;
   const std::string path = folder.file("z.rawlog");
-  writeLog(path, manyRanges(3000));
+  writeLog(path, manyRanges(30'000));
   std::string bytes = contentOf(path);
   for (std::size_t i = 0; i < 8; ++i) bytes[bytes.size() / 2 + i] ^= '\x5A';
   replaceContent(path, bytes);

@@ -165,6 +165,7 @@ struct MclConfig {
 /// MRPT's own particle filter with the same inputs.
 struct MrptMclConfig {
   StartConfig start;
+  OdometryNoise odometry_noise;
   std::vector<TagMount> tags;
   double body_height = 0.0;  ///< m
   bool use_ranges = true;
