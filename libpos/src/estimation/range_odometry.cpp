@@ -99,6 +99,8 @@ void RangeOdometry::begin(Stamp stamp) {
     case StartMode::Unknown:
       start_.emplace(config_, layout_);
       break;
+    case StartMode::AtTruth:
+      throw ContractError("start.mode at_truth must be spelt out before an estimator is made");
   }
 }
 
