@@ -73,6 +73,11 @@ OptionTable<RangeLikelihood> rangeLikelihoodOptions() {
               "Longest range; an outlier lies anywhere below it.")
       .number("bias_sigma_m", &RangeLikelihood::bias_sigma, between(0, 100),
               "Slowly varying offset of each anchor, tracked beside the particles; 0 means none.")
+      .number("bias_time_s", &RangeLikelihood::bias_time, between(0.01, 86400),
+              "Correlation time of that offset.")
+      .number(
+          "correlation_length_m", &RangeLikelihood::correlation_length, between(0, 1000),
+          "Ranges to one anchor within this way share their error and count as one; 0 counts all in full.")
       .check(kValid);
 }
 
@@ -87,7 +92,10 @@ OptionTable<ScanLikelihood> scanLikelihoodOptions() {
       .number("distance_max_m", &ScanLikelihood::distance_max, between(0.01, 1000),
               "Distances to the nearest wall count as this at most.")
       .number("tempering", &ScanLikelihood::tempering, between(0.0001, 1),
-              "Exponent on the scan's likelihood, below 1 for beams that are not independent.")
+              "Further exponent on the scan's likelihood; below 1 trusts scans less.")
+      .number(
+          "correlation_length_m", &ScanLikelihood::correlation_length, between(0, 1000),
+          "Beams and scans within this distance share their error and count as one; 0 counts all in full.")
       .check(kValid);
 }
 
@@ -235,6 +243,8 @@ OptionTable<MrptMclConfig> mrptMclOptions() {
   using Config = MrptMclConfig;
   return OptionTable<Config>("mrpt_mcl", "MRPT's own particle filter, for comparison.")
       .table("start", &Config::start, startOptions(), "What is known of the pose at the first measurement.")
+      .table("odometry_noise", &Config::odometry_noise, odometryNoiseOptions(),
+             "How odometry errors grow with way, turning and time.")
       .list("tags", &Config::tags, tagOptions(), "Where the tags sit; goes before what the log says of it.")
       .number("body_height_m", &Config::body_height, between(-10000, 10000),
               "Height of the body frame in the map.")

@@ -111,6 +111,10 @@ struct RangeLikelihood {
   double outlier_probability = 0.1;  ///< share of ranges that say nothing about the distance
   double range_max = 100.0;          ///< m, an outlier lies uniformly in [0, range_max]
   double bias_sigma = 0.0;  ///< m, slowly varying offset per anchor, tracked beside the particles; 0 = none
+  double bias_time = 30.0;  ///< s, correlation time of that offset
+  /// m: ranges to one anchor taken within this distance share their error (survey, antenna, reflections) and
+  /// count as one. 0 = every range counts in full.
+  double correlation_length = 2.5;
 
   bool operator==(const RangeLikelihood&) const = default;
 };
@@ -120,7 +124,10 @@ struct ScanLikelihood {
   double sigma = 0.1;  ///< m, of the distance to the nearest obstacle
   double outlier_probability = 0.2;
   double distance_max = 1.0;  ///< m, distances saturate here
-  double tempering = 1.0;     ///< exponent on the scan's likelihood, for beams that are not independent
+  double tempering = 1.0;     ///< further exponent on the scan's likelihood
+  /// m: beams that end within this distance of each other, and scans taken within it, share their error (the
+  /// map's, mostly) and count as one. 0 = every beam of every scan counts in full.
+  double correlation_length = 0.5;
 
   bool operator==(const ScanLikelihood&) const = default;
 };
@@ -158,6 +165,7 @@ struct MclConfig {
 /// MRPT's own particle filter with the same inputs.
 struct MrptMclConfig {
   StartConfig start;
+  OdometryNoise odometry_noise;
   std::vector<TagMount> tags;
   double body_height = 0.0;  ///< m
   bool use_ranges = true;
