@@ -2,10 +2,11 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)                           # libeigen3-dev
 include(PosOpenCV)                                                    # libopencv-{core,imgproc,imgcodecs}-dev
 find_package(yaml-cpp 0.7 REQUIRED)                                   # libyaml-cpp-dev
-find_library(POS_GEOGRAPHIC GeographicLib REQUIRED)                    # libgeographiclib-dev (ships no CMake config)
+include(PosGeographic)                                                # libgeographiclib-dev
 find_package(Boost 1.74 REQUIRED)                                     # libboost-dev (headers: Boost.Math)
 find_package(nlohmann_json 3.11 REQUIRED)                             # nlohmann-json3-dev
 find_package(CLI11 2.1 REQUIRED)                                      # libcli11-dev
+find_package(ZLIB REQUIRED)                                           # zlib1g-dev (libmrpt-obs-dev brings it)
 find_package(mrpt-obs 2.5 REQUIRED)                                   # libmrpt-obs-dev
 find_package(mrpt-maps 2.5 REQUIRED)                                  # libmrpt-maps-dev
 find_package(mrpt-slam 2.5 REQUIRED)                                  # libmrpt-slam-dev

@@ -73,11 +73,9 @@ OptionTable<RangeLikelihood> rangeLikelihoodOptions() {
               "Longest range; an outlier lies anywhere below it.")
       .number("bias_sigma_m", &RangeLikelihood::bias_sigma, between(0, 100),
               "Slowly varying offset of each anchor, tracked beside the particles; 0 means none.")
-      .number("bias_time_s", &RangeLikelihood::bias_time, between(0.01, 86400),
-              "Correlation time of that offset.")
-      .number(
-          "correlation_length_m", &RangeLikelihood::correlation_length, between(0, 1000),
-          "Ranges to one anchor within this way share their error and count as one; 0 counts all in full.")
+      .number("bias_time_s", &RangeLikelihood::bias_time, moreThan(0), "Correlation time of that offset.")
+      .number("correlation_length_m", &RangeLikelihood::correlation_length, between(0, 1000),
+              "Ranges to one anchor taken within this way share their error and count as one; 0 counts all.")
       .check(kValid);
 }
 
@@ -92,10 +90,10 @@ OptionTable<ScanLikelihood> scanLikelihoodOptions() {
       .number("distance_max_m", &ScanLikelihood::distance_max, between(0.01, 1000),
               "Distances to the nearest wall count as this at most.")
       .number("tempering", &ScanLikelihood::tempering, between(0.0001, 1),
-              "Further exponent on the scan's likelihood; below 1 trusts scans less.")
-      .number(
-          "correlation_length_m", &ScanLikelihood::correlation_length, between(0, 1000),
-          "Beams and scans within this distance share their error and count as one; 0 counts all in full.")
+              "Further exponent on the scan's likelihood.")
+      .number("correlation_length_m", &ScanLikelihood::correlation_length, between(0, 1000),
+              "Beams ending, and scans taken, this near each other share their error and count as one; 0 "
+              "counts all.")
       .check(kValid);
 }
 
@@ -124,11 +122,14 @@ std::string typeName(const estimation::EstimatorConfig& config) {
 
 OptionTable<StartConfig> startOptions() {
   return OptionTable<StartConfig>("start", "What is known of the pose at the first measurement.")
-      .choice("mode", &StartConfig::mode,
-              {{"known", StartMode::Known},
-               {"unknown_heading", StartMode::UnknownHeading},
-               {"unknown", StartMode::Unknown}},
-              "Whether position and heading, the position alone, or nothing is known.")
+      .choice(
+          "mode", &StartConfig::mode,
+          {{"known", StartMode::Known},
+           {"unknown_heading", StartMode::UnknownHeading},
+           {"unknown", StartMode::Unknown},
+           {"at_truth", StartMode::AtTruth}},
+          "Whether position and heading, the position alone, or nothing is known; at_truth takes the first "
+          "reference pose as the surveyed mark of the start (its heading only where the reference has one).")
       .number(
           "x_m", [](auto& start) -> auto& { return start.pose.x; }, anything(), "East in the map.")
       .number(
@@ -191,7 +192,6 @@ OptionTable<RangeOdometryConfig> rangeOdometryOptions() {
       .number("body_height_m", &Config::body_height, between(-10000, 10000),
               "Height of the body frame in the map.")
       .number("range_sigma_m", &Config::range_sigma, between(0.001, 100), "Standard deviation of a range.")
-      .flag("use_gnss", &Config::use_gnss, "Whether satellite fixes are used too; the map needs an origin.")
       .table("range_scale", &Config::range_scale, calibrationOptions("range_scale", "", between(0.5, 2), 0.5),
              "Factor between measured and true ranges.")
       .table("range_offset", &Config::range_offset,

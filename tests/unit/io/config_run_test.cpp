@@ -56,6 +56,7 @@ TEST(ConfigRun, EveryKeyReachesItsMember) {
   const auto& yardstick = std::get<MrptMclConfig>(run.estimators[3].config);
   EXPECT_FALSE(yardstick.adaptive_size);
   EXPECT_EQ(yardstick.particles, 3000);
+  EXPECT_EQ(yardstick.odometry_noise.position_per_sqrt_s, 0.003);
 }
 
 /// Paths of all leaves that the text of a config shows with the same value as the text of the defaults.

@@ -41,7 +41,6 @@ estimators:
     tags: [{id: 0, x_m: 0.16, y_m: 0.1, z_m: 1.12}, {id: 7, x_m: -1, y_m: 0, z_m: 2}]
     body_height_m: -350.5
     range_sigma_m: 0.17
-    use_gnss: true
     range_scale: {value: 1.01, sigma: 0.02, walk_per_sqrt_s: 0.001}
     range_offset: {value_m: 0.1, sigma_m: 0.2, walk_m_per_sqrt_s: 0.01}
     anchor_offset: {value_m: 0.3, sigma_m: 0.4, walk_m_per_sqrt_s: 0.02}
@@ -68,6 +67,7 @@ estimators:
   - name: yardstick
     type: mrpt_mcl
     start: {mode: known}
+    odometry_noise: {position_m_per_sqrt_s: 0.003}
     tags: []
     body_height_m: 0.25
     use_ranges: false

@@ -5,10 +5,15 @@
 
 namespace pos {
 
-template <FixedManifold X>
+template <Manifold X>
 struct Belief {
   X mean{};
-  Matrix<X::kDof, X::kDof> covariance = Matrix<X::kDof, X::kDof>::Zero();
+  TangentMatrix<X> covariance{};
+
+  Belief() {
+    if constexpr (X::kDof != Eigen::Dynamic) covariance.setZero();
+  }
+  Belief(const X& m, const TangentMatrix<X>& P) : mean(m), covariance(P) {}
 };
 
 }  // namespace pos

@@ -24,18 +24,18 @@ using TagId = std::int32_t;
 
 /// Motion of the body since the previous increment of the same sensor, T_previous_now.
 struct OdometryIncrement {
-  Pose2 increment;
+  Pose2 increment = {};
   /// Time the motion took; absent when the log does not say (then: since the previous increment).
-  std::optional<Duration> interval;
+  std::optional<Duration> interval = {};
   /// Covariance of the increment's tangent [x, y, yaw] in the previous body frame, where the log gives one.
-  std::optional<Matrix<3, 3>> covariance;
+  std::optional<Matrix<3, 3>> covariance = {};
 };
 
 /// Speed of wheels over ground (m/s), or of a body whose yaw rate a gyro gives (rad/s).
 struct WheelSpeeds {
   double left = 0.0;
   double right = 0.0;
-  std::optional<double> yaw_rate;
+  std::optional<double> yaw_rate = {};
 };
 
 /// Cumulative encoder counters; they wrap at the counter's width, which the vehicle's configuration gives.
@@ -52,7 +52,7 @@ struct ImuSample {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   /// Specific force, m/s^2 (Rates) or m/s over the interval (Increments). At rest it points up.
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
-  std::optional<Duration> interval;
+  std::optional<Duration> interval = {};
 };
 
 /// One radio range between a tag on the vehicle and an anchor of the map.
@@ -61,11 +61,11 @@ struct BeaconRange {
   AnchorId anchor = 0;
   double range = 0.0;  ///< m
   /// Standard deviation the log claims, m. Estimators use their own model unless told to trust it.
-  std::optional<double> sigma;
+  std::optional<double> sigma = {};
   /// Where the tag sits on the body (m, FLU), where the log says so.
-  std::optional<Eigen::Vector3d> tag_body;
-  std::optional<double> rx_power_dbm;
-  std::optional<double> first_path_power_dbm;
+  std::optional<Eigen::Vector3d> tag_body = {};
+  std::optional<double> rx_power_dbm = {};
+  std::optional<double> first_path_power_dbm = {};
 };
 
 /// A satellite position fix.
@@ -80,26 +80,26 @@ struct GnssFix {
 /// One sweep of a planar laser scanner. Beam i looks along `angle_first + i * angle_step` in the sensor
 /// frame.
 struct Scan2D {
-  Pose3 T_body_sensor;
-  double angle_first = 0.0;         ///< rad
-  double angle_step = 0.0;          ///< rad, signed
-  double range_max = 0.0;           ///< m
-  std::vector<float> ranges;        ///< m
-  std::vector<std::uint8_t> valid;  ///< 1 where the beam came back
+  Pose3 T_body_sensor = {};
+  double angle_first = 0.0;              ///< rad
+  double angle_step = 0.0;               ///< rad, signed
+  double range_max = 0.0;                ///< m
+  std::vector<float> ranges = {};        ///< m
+  std::vector<std::uint8_t> valid = {};  ///< 1 where the beam came back
 };
 
 /// Reference pose recorded with the log. Never given to an estimator; the evaluation reads it.
 struct PoseTruth {
-  Pose3 T_map_body;
+  Pose3 T_map_body = {};
 };
 
 /// The vehicle passed, or sits in, a known place: a refuge chamber, a portal reader, a dual-UWB pose.
 struct PassageFix {
-  std::string place;
+  std::string place = {};
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
   Matrix<3, 3> covariance = Matrix<3, 3>::Zero();
-  std::optional<double> yaw;        ///< rad
-  std::optional<double> yaw_sigma;  ///< rad
+  std::optional<double> yaw = {};        ///< rad
+  std::optional<double> yaw_sigma = {};  ///< rad
 };
 
 using Reading = std::variant<OdometryIncrement, WheelSpeeds, WheelTicks, ImuSample, BeaconRange, GnssFix,
@@ -107,9 +107,9 @@ using Reading = std::variant<OdometryIncrement, WheelSpeeds, WheelTicks, ImuSamp
 
 /// One reading with its stamp (moment of measurement) and the label of the sensor that gave it.
 struct Measurement {
-  Stamp stamp;
-  std::string sensor;
-  Reading reading;
+  Stamp stamp = {};
+  std::string sensor = {};
+  Reading reading = {};
 };
 
 /// The kind's name in configs, tables and messages: "odometry", "range", "scan", ...

@@ -33,6 +33,8 @@ struct IngestReport {
   double innovation_sigma = 0.0;
   /// Why, in a few words, where the verdict is not Applied. Points at a string literal.
   std::string_view reason = {};
+  /// Something worth a line in the run's events ("gate opened"), empty otherwise. Points at a string literal.
+  std::string_view event = {};
 };
 
 }  // namespace pos

@@ -19,6 +19,7 @@ enum class StartMode {
   Known,           ///< position and heading, with the sigmas given
   UnknownHeading,  ///< position as given, heading anything
   Unknown,         ///< nothing: from the first ranges, or uniformly over the map
+  AtTruth,         ///< the mark where the reference begins; the app spells it out as one of the others
 };
 
 struct StartConfig {
@@ -93,7 +94,6 @@ struct RangeOdometryConfig {
   std::vector<TagMount> tags;             ///< before what the log says of the tag's place
   double body_height = 0.0;               ///< m, z of the body frame in the map
   double range_sigma = 0.1;               ///< m
-  bool use_gnss = false;                  ///< fuse satellite fixes too (needs the map's origin)
   CalibrationState range_scale{1.0, 0.0, 0.0};
   CalibrationState range_offset{0.0, 0.0, 0.0};   ///< m
   CalibrationState anchor_offset{0.0, 0.0, 0.0};  ///< m, one state per anchor

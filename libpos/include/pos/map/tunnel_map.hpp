@@ -15,7 +15,7 @@ namespace pos::map {
 /// A radio anchor at a surveyed place.
 struct Anchor {
   AnchorId id = 0;
-  std::string name;
+  std::string name = {};
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< m
   double survey_sigma = 0.0;                        ///< m, per axis
   double range_bias = 0.0;                          ///< m, subtracted from every range to this anchor
@@ -36,14 +36,14 @@ struct GeodeticOrigin {
 /// How likely each cell is to be free, over a regular grid. Cell (column, row) covers
 /// [x_min + column*resolution, +resolution) x [y_min + row*resolution, +resolution) in the grid's own axes.
 struct OccupancyGrid {
-  Pose2 T_map_grid;
+  Pose2 T_map_grid = {};
   double x_min = 0.0;       ///< m
   double y_min = 0.0;       ///< m
   double resolution = 0.1;  ///< m
   int columns = 0;
   int rows = 0;
   /// Occupancy in percent, row-major from y_min up: 0 free .. 100 rock, kUnknown where never seen.
-  std::vector<std::uint8_t> occupancy;
+  std::vector<std::uint8_t> occupancy = {};
   static constexpr std::uint8_t kUnknown = 255;
 
   std::uint8_t at(int column, int row) const {
@@ -53,10 +53,10 @@ struct OccupancyGrid {
 };
 
 struct TunnelMap {
-  std::string name;
-  std::optional<GeodeticOrigin> origin;
-  std::vector<Anchor> anchors;  ///< ids are unique
-  std::optional<OccupancyGrid> grid;
+  std::string name = {};
+  std::optional<GeodeticOrigin> origin = {};
+  std::vector<Anchor> anchors = {};  ///< ids are unique
+  std::optional<OccupancyGrid> grid = {};
 
   /// The anchor with this id, or null. O(n), n is tens; estimators keep their own table.
   const Anchor* findAnchor(AnchorId id) const;

@@ -1,0 +1,45 @@
+#pragma once
+/// From a configuration and the command line to everything a replay needs.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "pos/core/estimate.hpp"
+#include "pos/eval/run_summary.hpp"
+#include "pos/io/run_config.hpp"
+#include "pos/map/tunnel_map.hpp"
+
+namespace pos::app {
+
+/// Options that name or change the inputs, the same for every verb that runs estimators.
+struct InputOptions {
+  std::string config;
+  std::string log;
+  std::string map;
+  std::string truth;
+  std::string truth_format;
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+};
+
+void addInputs(CLI::App& verb, InputOptions& options);
+
+/// Everything loaded and checked. `config` is resolved: absolute paths, the command line's choices, the run's seed
+/// handed to every estimator that draws random numbers and has none of its own, starts taken from the truth spelt out.
+struct Inputs {
+  io::RunConfig config;
+  std::shared_ptr<const map::TunnelMap> map;
+  std::optional<Truth> truth;
+};
+
+Inputs loadInputs(const InputOptions& options);
+
+/// The reference poses that the configuration names, in the map frame. Throws DataError.
+std::optional<Truth> loadTruth(const io::RunConfig& config);
+
+eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config);
+
+}  // namespace pos::app

@@ -1,0 +1,83 @@
+#include "outputs.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "pos/core/error.hpp"
+#include "pos/eval/requirement.hpp"
+#include "pos/io/sha256.hpp"
+#include "pos/report/comparison.hpp"
+#include "pos/report/figures.hpp"
+#include "pos/report/html.hpp"
+#include "pos/report/summary_json.hpp"
+
+namespace pos::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+nlohmann::ordered_json inputEntry(const char* role, const fs::path& file) {
+  return {{"role", role}, {"file", file.string()}, {"sha256", io::sha256OfFile(file)}};
+}
+
+/// Everything needed to repeat the run: versions, inputs with their checksums, seed, resolved configuration.
+std::string runJson(const Inputs& inputs) {
+  const io::RunConfig& config = inputs.config;
+  nlohmann::ordered_json run;
+  run["run"] = config.name;
+  run["pos_version"] = version();
+  run["git"] = gitHash();
+  run["seed"] = config.seed;
+  run["inputs"] = {inputEntry("log", config.log->file)};
+  if (config.map) run["inputs"].push_back(inputEntry("map", *config.map));
+  if (config.truth && config.truth->file) run["inputs"].push_back(inputEntry("truth", *config.truth->file));
+  run["config"] = io::resolvedYaml(config);
+  return run.dump(2) + "\n";
+}
+
+}  // namespace
+
+void addOutputs(CLI::App& verb, OutputOptions& options) {
+  verb.add_flag("--json", options.json, "Print the summary as JSON on standard output");
+  verb.add_option("--out", options.folder, "Folder for run.json, trajectories, summary.json and report.html");
+  verb.add_flag("--force", options.force, "Replace the files of an earlier run in --out");
+  verb.add_option("--require", options.requirements, "Limit to keep, e.g. 'p95_xy<1.0'; exit code 4 when missed")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+std::optional<io::RunFolder> openRunFolder(const OutputOptions& options) {
+  if (options.folder.empty()) return std::nullopt;
+  return io::RunFolder::create(options.folder, options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
+}
+
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
+  writeFile(folder.runJson(), runJson(inputs));
+  writeFile(folder.summaryJson(), report::summaryJson(summary));
+  writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
+  const fs::path figures = folder.path() / "figures";
+  fs::create_directories(figures);
+  for (const report::NamedFigure& figure : report::figures(summary)) writeFile(figures / (figure.name + ".svg"), figure.svg);
+}
+
+void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder, const Voice& voice) {
+  for (const std::string& warning : report::warnings(summary)) voice.say("note: " + warning);
+  if (options.json) {
+    print(report::summaryJson(summary));
+  } else {
+    print(report::comparisonTable(summary));
+  }
+  if (folder != nullptr) voice.say("report: " + folder->reportHtml().string());
+}
+
+void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements, const Voice& voice) {
+  std::string missed;
+  for (const std::string& text : requirements) {
+    for (const eval::RequirementResult& result : eval::check(eval::parseRequirement(text, summary), summary)) {
+      voice.say(result.line);
+      if (!result.passed) missed += (missed.empty() ? "" : "; ") + result.line;
+    }
+  }
+  if (!missed.empty()) throw RequirementMissed(Complaint{.what = "a requirement was missed", .got = missed});
+}
+
+}  // namespace pos::app

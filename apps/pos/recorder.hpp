@@ -1,0 +1,49 @@
+#pragma once
+/// Keeps what one estimator said during a replay: on disk as it goes, and in memory for the evaluation.
+
+#include <memory>
+#include <string>
+
+#include "pos/estimation/estimator.hpp"
+#include "pos/eval/run_summary.hpp"
+#include "pos/io/run_folder.hpp"
+
+namespace pos::app {
+
+/// The files of one estimator in a run folder.
+struct RecorderFiles {
+  io::TumWriter tum;
+  io::EstimateCsvWriter csv;
+};
+
+/// One estimator with its record. Estimates are recorded after the last measurement of a stamp, at most `max_rate`
+/// times a second.
+class Recorder {
+ public:
+  Recorder(const std::string& name, const std::string& type, std::unique_ptr<estimation::Estimator> estimator,
+           double max_rate);
+  Recorder(Recorder&&) = default;
+
+  void openFiles(const io::RunFolder& folder);
+  /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator said.
+  IngestReport take(const Measurement& measurement);
+  /// Counts a measurement that the configuration keeps from the estimators.
+  void withhold(const Measurement& measurement, std::string_view reason);
+  /// All measurements with this stamp are in.
+  void endEpoch(Stamp stamp);
+  /// Closes the files and hands out the record.
+  eval::EstimatorRecord finish();
+
+  const std::string& name() const { return record_.name; }
+
+ private:
+  void note(const Measurement& measurement, const IngestReport& report);
+
+  std::unique_ptr<estimation::Estimator> estimator_;
+  eval::EstimatorRecord record_;
+  std::unique_ptr<RecorderFiles> files_;
+  Duration shortest_step_{};
+  io::EpochVerdicts epoch_{};
+};
+
+}  // namespace pos::app

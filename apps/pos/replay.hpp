@@ -1,0 +1,34 @@
+#pragma once
+/// The main loop: one log, several estimators, one pass.
+
+#include <functional>
+#include <optional>
+
+#include "inputs.hpp"
+#include "pos/eval/run_summary.hpp"
+#include "pos/io/rawlog_reader.hpp"
+#include "pos/io/run_folder.hpp"
+
+namespace pos::app {
+
+/// What came out of a pass over a log.
+struct Replayed {
+  std::vector<eval::EstimatorRecord> records;
+  Stamp first;
+  Stamp last;
+  std::uint64_t measurements = 0;
+  io::LogEnd log_end;
+  io::LogTally tally;
+  bool interrupted = false;
+};
+
+/// Called now and then with the number of measurements so far and the stamp reached; false stops the pass.
+using Progress = std::function<bool(std::uint64_t, Stamp)>;
+
+/// Runs every estimator of the configuration over its log. Files go to `folder` where there is one.
+Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress);
+
+/// Records, truth and log judged together.
+eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed);
+
+}  // namespace pos::app

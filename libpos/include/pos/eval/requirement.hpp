@@ -1,0 +1,41 @@
+#pragma once
+/// `--require 'p95_xy<1.0'`: a limit that a run must keep.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pos/eval/run_summary.hpp"
+
+namespace pos::eval {
+
+enum class Relation { Less, LessOrEqual, Greater, GreaterOrEqual };
+
+struct Requirement {
+  std::string text;       ///< as written
+  std::string estimator;  ///< empty: every estimator of the run
+  std::string metric;     ///< full name: "errors.xy.p95"
+  Relation relation = Relation::Less;
+  double limit = 0.0;
+};
+
+/// The outcome for one estimator.
+struct RequirementResult {
+  bool passed = false;
+  std::string line;  ///< "pass  range_odometry: errors.xy.p95 = 0.412 < 1"
+};
+
+/// Every figure of an estimator under the name it has in summary.json below `estimators.<name>` (yaw in
+/// degrees); nothing where this run gives the figure no value (no truth, no heading in it, ...).
+std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& estimator, Duration log_span);
+
+/// Reads `[estimator.]metric(<|<=|>|>=)number`. The metric is a path of summary.json ("errors.xy.p95", with
+/// or without "errors."), or a short form: "p95_xy", "rmse_yaw", "nees_xy_mean", "real_time_factor".
+/// UsageError, with the nearest name, for a metric or estimator this run does not know.
+Requirement parseRequirement(const std::string& text, const RunSummary& run);
+
+/// One result per estimator meant. A figure without a value misses the requirement.
+std::vector<RequirementResult> check(const Requirement& requirement, const RunSummary& run);
+
+}  // namespace pos::eval

@@ -1,0 +1,42 @@
+#include "pos/estimation/factory.hpp"
+
+#include <array>
+
+#include "pos/core/error.hpp"
+#include "pos/estimation/dead_reckoning.hpp"
+#include "pos/estimation/mcl.hpp"
+#include "pos/estimation/range_odometry.hpp"
+
+namespace pos::estimation {
+namespace {
+
+using Map = std::shared_ptr<const map::TunnelMap>;
+
+struct Make {
+  Map map;
+  std::unique_ptr<Estimator> operator()(const DeadReckoningConfig& c) const {
+    return std::make_unique<DeadReckoning>(c);
+  }
+  std::unique_ptr<Estimator> operator()(const RangeOdometryConfig& c) const {
+    return std::make_unique<RangeOdometry>(c, map);
+  }
+  std::unique_ptr<Estimator> operator()(const MclConfig& c) const { return std::make_unique<Mcl>(c, map); }
+  std::unique_ptr<Estimator> operator()(const MrptMclConfig&) const {
+    throw ContractError("mrpt_mcl is made by pos::yardstick, not by pos::estimation");
+  }
+};
+
+}  // namespace
+
+std::string_view typeName(const EstimatorConfig& config) {
+  static constexpr std::array<std::string_view, 4> kNames{"dead_reckoning", "range_odometry", "mcl",
+                                                          "mrpt_mcl"};
+  static_assert(kNames.size() == std::variant_size_v<EstimatorConfig>);
+  return kNames[config.index()];
+}
+
+std::unique_ptr<Estimator> makeEstimator(const EstimatorConfig& config, Map map) {
+  return std::visit(Make{std::move(map)}, config);
+}
+
+}  // namespace pos::estimation

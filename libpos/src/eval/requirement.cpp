@@ -1,0 +1,271 @@
+#include "pos/eval/requirement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "pos/core/angle.hpp"
+#include "pos/core/error.hpp"
+
+namespace pos::eval {
+
+namespace {
+
+using Metrics = std::map<std::string, std::optional<double>>;
+
+struct Figure {
+  const char* name;
+  double Statistics::*field;
+};
+constexpr std::array kFigures{Figure{"rmse", &Statistics::rmse},     Figure{"mean", &Statistics::mean},
+                              Figure{"median", &Statistics::median}, Figure{"std", &Statistics::std},
+                              Figure{"min", &Statistics::min},       Figure{"max", &Statistics::max},
+                              Figure{"p50", &Statistics::p50},       Figure{"p68", &Statistics::p68},
+                              Figure{"p90", &Statistics::p90},       Figure{"p95", &Statistics::p95},
+                              Figure{"p99", &Statistics::p99}};
+
+std::string compact(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", value);
+  return text.data();
+}
+
+Metrics errorMetrics(const EstimatorSummary& estimator) {
+  Metrics all;
+  for (const Component which : kComponents) {
+    const Statistics* found = estimator.evaluation ? estimator.evaluation->find(which) : nullptr;
+    const double unit = which == Component::Yaw ? degrees(1.0) : 1.0;
+    for (const Figure& figure : kFigures) {
+      auto& value = all["errors." + std::string(name(which)) + "." + figure.name];
+      if (found) value = unit * found->*figure.field;
+    }
+  }
+  const bool matched = estimator.evaluation && estimator.evaluation->association.matched > 0;
+  for (std::size_t i = 0; i < kErrorLimits.size(); ++i) {
+    auto& value = all["fraction_under." + compact(kErrorLimits[i]) + "_m"];
+    if (matched) value = estimator.evaluation->fraction_under[i];
+  }
+  return all;
+}
+
+Metrics neesMetrics(const std::string& stem, const NeesSummary* nees) {
+  Metrics all;
+  const bool known = nees != nullptr && nees->count > 0;
+  const auto put = [&](const char* end, double value) {
+    all["consistency." + stem + end] = known ? std::optional(value) : std::nullopt;
+  };
+  put("_mean", known ? nees->mean : 0.0);
+  put("_low", known ? nees->bounds.low : 0.0);
+  put("_high", known ? nees->bounds.high : 0.0);
+  put("_sigma_factor", known ? nees->sigmaFactor() : 0.0);
+  return all;
+}
+
+Metrics verdictMetrics(const VerdictCounts& verdicts) {
+  Metrics all;
+  const auto put = [&all](const std::string& stem, const Tally& tally) {
+    for (const Verdict verdict : kVerdicts) {
+      all[stem + std::string(name(verdict))] = static_cast<double>(tally.count(verdict));
+    }
+    all[stem + "gated_fraction"] = tally.gatedFraction();
+  };
+  put("verdicts.total.", verdicts.total());
+  for (const auto& [sensor, tally] : verdicts.sensors()) {
+    put("verdicts.sensors." + sensor + ".", tally);
+    all["consistency.nis_" + sensor + "_mean"] = tally.nisMean();
+  }
+  return all;
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+std::string nearest(std::string_view wanted, const std::vector<std::string>& candidates) {
+  const auto best = std::min_element(
+      candidates.begin(), candidates.end(),
+      [wanted](const auto& a, const auto& b) { return editDistance(wanted, a) < editDistance(wanted, b); });
+  return best == candidates.end() ? "" : *best;
+}
+
+/// Short forms of a full metric name, most readable first.
+std::vector<std::string> shortForms(const std::string& full) {
+  const std::size_t dot = full.find('.');
+  if (dot == std::string::npos) return {};
+  const std::string rest = full.substr(dot + 1);
+  const std::size_t second = rest.find('.');
+  if (full.starts_with("errors.")) return {rest.substr(second + 1) + "_" + rest.substr(0, second), rest};
+  if (full.starts_with("fraction_under.")) return {"under_" + rest};
+  if (full.starts_with("verdicts.total.")) return {rest.substr(second + 1)};
+  if (full.starts_with("verdicts.")) return {};
+  return {rest};
+}
+
+/// Every accepted spelling with the full name it stands for.
+std::map<std::string, std::string> spellings(const RunSummary& run) {
+  std::map<std::string, std::string> all;
+  std::vector<EstimatorSummary> none(run.estimators.empty() ? 1 : 0);
+  for (const EstimatorSummary& estimator : run.estimators.empty() ? none : run.estimators) {
+    for (const auto& [full, value] : metrics(estimator, run.end - run.start)) {
+      all[full] = full;
+      for (const std::string& form : shortForms(full)) all.emplace(form, full);
+    }
+  }
+  return all;
+}
+
+[[noreturn]] void throwUsage(const std::string& text, const std::string& what, const std::string& got,
+                             const std::string& suggestion) {
+  throw UsageError(Complaint{
+      .what = what + " in the requirement '" + text + "'",
+      .key = "--require",
+      .got = got,
+      .expected = "[estimator.]metric(<|<=|>|>=)number, as in p95_xy<1.0 or ekf.errors.xy.rmse<=0.15",
+      .suggestion = suggestion});
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+double parsedLimit(const std::string& text, const std::string& number) {
+  double limit = 0.0;
+  const char* end = number.data() + number.size();
+  const auto [stopped, error] = std::from_chars(number.data(), end, limit);
+  if (error != std::errc{} || stopped != end || !std::isfinite(limit)) {
+    throwUsage(text, "the limit is not a number", number, "");
+  }
+  return limit;
+}
+
+/// The estimator that `left` begins with ("name."), the longest where several do; empty for none.
+std::string leadingEstimator(const std::string& left, const RunSummary& run) {
+  std::string found;
+  for (const EstimatorSummary& estimator : run.estimators) {
+    if (left.starts_with(estimator.name + ".") && estimator.name.size() > found.size())
+      found = estimator.name;
+  }
+  return found;
+}
+
+[[noreturn]] void throwUnknown(const std::string& text, const std::string& left,
+                               const std::map<std::string, std::string>& known, const RunSummary& run) {
+  std::vector<std::string> candidates;
+  for (const auto& [spelling, full] : known) candidates.push_back(spelling);
+  const std::size_t dot = left.find('.');
+  const bool metric_after_dot = dot != std::string::npos && known.contains(left.substr(dot + 1));
+  if (metric_after_dot) {
+    std::vector<std::string> names;
+    for (const EstimatorSummary& estimator : run.estimators) names.push_back(estimator.name);
+    const std::string guess = nearest(left.substr(0, dot), names);
+    throwUsage(text, "unknown estimator", left.substr(0, dot),
+               guess.empty() ? "" : "did you mean " + guess + "?");
+  }
+  throwUsage(text, "unknown metric", left, "did you mean " + nearest(left, candidates) + "?");
+}
+
+bool holds(double value, Relation relation, double limit) {
+  switch (relation) {
+    case Relation::Less:
+      return value < limit;
+    case Relation::LessOrEqual:
+      return value <= limit;
+    case Relation::Greater:
+      return value > limit;
+    case Relation::GreaterOrEqual:
+      return value >= limit;
+  }
+  return false;
+}
+
+const char* symbol(Relation relation) {
+  switch (relation) {
+    case Relation::Less:
+      return "<";
+    case Relation::LessOrEqual:
+      return "<=";
+    case Relation::Greater:
+      return ">";
+    case Relation::GreaterOrEqual:
+      return ">=";
+  }
+  return "<";
+}
+
+RequirementResult checkOne(const Requirement& requirement, const EstimatorSummary& estimator, Duration span) {
+  const Metrics all = metrics(estimator, span);
+  const auto found = all.find(requirement.metric);
+  const std::optional<double> value = found == all.end() ? std::nullopt : found->second;
+  const bool passed = value && holds(*value, requirement.relation, requirement.limit);
+  const std::string shown = value ? compact(*value) : "no value in this run";
+  return {passed, std::string(passed ? "pass  " : "FAIL  ") + estimator.name + ": " + requirement.metric +
+                      " = " + shown + ", required " + symbol(requirement.relation) + " " +
+                      compact(requirement.limit)};
+}
+
+}  // namespace
+
+std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& estimator, Duration log_span) {
+  const Evaluation* evaluation = estimator.evaluation ? &*estimator.evaluation : nullptr;
+  Metrics all = errorMetrics(estimator);
+  all.merge(neesMetrics("nees_xy", evaluation ? &evaluation->consistency.nees_xy : nullptr));
+  all.merge(neesMetrics("nees_pose", evaluation ? &evaluation->consistency.nees_pose : nullptr));
+  all.merge(verdictMetrics(estimator.verdicts));
+  all["coverage"] = evaluation ? std::optional(evaluation->association.coverage) : std::nullopt;
+  const bool timed = estimator.compute.count() > 0;
+  const auto put = [&](const char* key, double value) {
+    all[std::string("compute.") + key] = timed ? std::optional(value) : std::nullopt;
+  };
+  put("us_per_measurement_p50", estimator.compute.microseconds(0.50));
+  put("us_per_measurement_p99", estimator.compute.microseconds(0.99));
+  put("real_time_factor", estimator.compute.realTimeFactor(log_span));
+  return all;
+}
+
+Requirement parseRequirement(const std::string& text, const RunSummary& run) {
+  const std::size_t at = text.find_first_of("<>");
+  if (at == std::string::npos) throwUsage(text, "no comparison", text, "p95_xy<1.0");
+  const bool or_equal = at + 1 < text.size() && text[at + 1] == '=';
+  Requirement requirement;
+  requirement.text = text;
+  if (text[at] == '<') requirement.relation = or_equal ? Relation::LessOrEqual : Relation::Less;
+  if (text[at] == '>') requirement.relation = or_equal ? Relation::GreaterOrEqual : Relation::Greater;
+  requirement.limit = parsedLimit(text, trimmed(text.substr(at + (or_equal ? 2 : 1))));
+
+  const std::map<std::string, std::string> known = spellings(run);
+  const std::string left = trimmed(text.substr(0, at));
+  requirement.estimator = known.contains(left) ? "" : leadingEstimator(left, run);
+  const std::string metric =
+      requirement.estimator.empty() ? left : left.substr(requirement.estimator.size() + 1);
+  const auto found = known.find(metric);
+  if (found == known.end()) throwUnknown(text, metric, known, run);
+  requirement.metric = found->second;
+  return requirement;
+}
+
+std::vector<RequirementResult> check(const Requirement& requirement, const RunSummary& run) {
+  std::vector<RequirementResult> results;
+  for (const EstimatorSummary& estimator : run.estimators) {
+    if (!requirement.estimator.empty() && estimator.name != requirement.estimator) continue;
+    results.push_back(checkOne(requirement, estimator, run.end - run.start));
+  }
+  return results;
+}
+
+}  // namespace pos::eval

@@ -1,0 +1,132 @@
+#include "pos/io/rawlog_reader.hpp"
+
+#include <mrpt/obs/CActionCollection.h>
+
+#include "byte_source.hpp"
+#include "mrpt_archive.hpp"
+#include "mrpt_values.hpp"
+#include "object_guard.hpp"
+#include "pos/core/error.hpp"
+#include "rawlog_intake.hpp"
+
+namespace pos::io {
+
+using mrpt::serialization::CSerializable;
+
+struct RawlogReader::Impl {
+  explicit Impl(const std::string& path) : source(path), archive(source), intake(mrpt::Clock::now()) {}
+
+  void readOne();
+  void stop(const std::string& damage);
+
+  ByteSource source;
+  SourceArchive archive;
+  RawlogIntake intake;
+  LogEnd end;
+  bool done = false;
+};
+
+void RawlogReader::Impl::stop(const std::string& damage) {
+  done = true;
+  end.damaged = !damage.empty();
+  end.message = damage;
+  intake.finish();
+}
+
+void RawlogReader::Impl::readOne() {
+  if (source.atEnd()) return stop(source.damage().value_or(""));
+  try {
+    if (const auto outline = outlineNext(source); outline.damage) {
+      return stop(source.damage().value_or(*outline.damage));
+    }
+    CSerializable::Ptr object = archive.ReadObject();
+    ++end.objects;
+    end.byte = source.position();
+    if (object != nullptr && object->GetRuntimeClass() == CLASS_ID(mrpt::obs::CActionCollection)) {
+      intake.hold(std::move(object));
+    } else {
+      intake.take(object.get());
+    }
+  } catch (const std::exception& error) {
+    stop(source.damage().value_or(messageOf(error.what())));
+  }
+}
+
+RawlogReader::RawlogReader(const std::string& path) {
+  registerMrptClasses();
+  impl_ = std::make_unique<Impl>(path);
+  if (impl_->source.atEnd() && !impl_->source.damage()) {
+    throw DataError(Complaint{
+        .what = "the rawlog is empty", .place = {.file = path}, .suggestion = "record or copy it again"});
+  }
+  impl_->readOne();
+  if (impl_->end.objects == 0) {
+    throw DataError(Complaint{
+        .what = "this is no MRPT rawlog, or it is damaged from its first object on",
+        .place = {.file = path},
+        .got = impl_->end.message,
+        .expected = "a .rawlog file of MRPT, plain or gzip",
+        .suggestion = "check that the path names the log and not a text, map or bag file; copy it again"});
+  }
+}
+
+RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
+RawlogReader& RawlogReader::operator=(RawlogReader&&) noexcept = default;
+RawlogReader::~RawlogReader() = default;
+
+std::optional<Measurement> RawlogReader::next() {
+  for (;;) {
+    if (auto measurement = impl_->intake.pop()) return measurement;
+    if (impl_->done) return std::nullopt;
+    impl_->readOne();
+  }
+}
+
+const LogEnd& RawlogReader::end() const {
+  return impl_->end;
+}
+
+std::optional<std::size_t> RawlogReader::frame() const {
+  return impl_->intake.frame();
+}
+
+LogFormat RawlogReader::format() const {
+  return impl_->intake.format();
+}
+
+const LogTally& RawlogReader::tally() const {
+  return impl_->intake.tally();
+}
+
+std::vector<Stamp> frameStamps(const std::string& path) {
+  RawlogReader log(path);
+  RawlogReader::Impl& impl = *log.impl_;
+  std::vector<Stamp> stamps;
+  const auto collect = [&] {
+    if (impl.intake.pairs() == stamps.size()) return;
+    if (const auto stamp = impl.intake.pairStamp()) return stamps.push_back(*stamp);
+    throw DataError(Complaint{.what = "an action/observation pair has no time stamp in any of its parts",
+                              .place = {.file = path},
+                              .got = "pair " + std::to_string(stamps.size()) + " (counted from 0)"});
+  };
+  collect();
+  while (!impl.done) {
+    impl.readOne();
+    collect();
+    while (impl.intake.pop()) continue;
+  }
+  if (impl.end.damaged) {
+    throw DataError(Complaint{.what = "the log is damaged, so its pairs cannot all be stamped",
+                              .place = {.file = path},
+                              .got = impl.end.message,
+                              .suggestion = "copy the log again or cut it before the damage"});
+  }
+  if (stamps.empty()) {
+    throw DataError(Complaint{.what = "the log has no action/observation pairs",
+                              .place = {.file = path},
+                              .suggestion = "place the truth by time instead of by index"});
+  }
+  return stamps;
+}
+
+}  // namespace pos::io

@@ -1,0 +1,235 @@
+/// The promises of pos/estimation/estimator.hpp, run over every estimator.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "pos/yardstick/factory.hpp"
+#include "support/small_run.hpp"
+
+namespace pos::estimation {
+namespace {
+
+using pos::testing::runStamp;
+using pos::testing::smallMap;
+using pos::testing::smallRun;
+using pos::testing::truthAt;
+
+struct Subject {
+  std::string name;
+  EstimatorConfig config;
+  bool uses_scans = false;
+};
+
+std::ostream& operator<<(std::ostream& out, const Subject& subject) {
+  return out << subject.name;
+}
+
+StartConfig startAtTruth(StartMode mode) {
+  StartConfig start;
+  start.mode = mode;
+  start.pose = truthAt(0.0);
+  return start;
+}
+
+std::vector<Subject> subjects() {
+  DeadReckoningConfig dead_reckoning;
+  dead_reckoning.start = startAtTruth(StartMode::Known);
+  RangeOdometryConfig known;
+  known.start = startAtTruth(StartMode::Known);
+  RangeOdometryConfig unknown_heading = known;
+  unknown_heading.start.mode = StartMode::UnknownHeading;
+  RangeOdometryConfig unknown = known;
+  unknown.start.mode = StartMode::Unknown;
+  unknown.range_scale.sigma = 0.02;
+  unknown.anchor_offset.sigma = 0.05;
+  RangeOdometryConfig no_odometry = known;
+  no_odometry.motion = RangeOdometryConfig::Motion::ConstantVelocity;
+  no_odometry.latency.sigma = 0.05;
+  MclConfig mcl;
+  mcl.start = startAtTruth(StartMode::Known);
+  mcl.particles.min = 200;
+  mcl.particles.max = 2000;
+  MclConfig mcl_scan = mcl;
+  mcl_scan.use_ranges = false;
+  mcl_scan.use_scans = true;
+  MrptMclConfig mrpt;
+  mrpt.start = startAtTruth(StartMode::Known);
+  mrpt.particles = 500;
+  MrptMclConfig mrpt_scan = mrpt;
+  mrpt_scan.use_ranges = false;
+  mrpt_scan.use_scans = true;
+  return {{"dead_reckoning", dead_reckoning},
+          {"range_odometry", known},
+          {"range_odometry_unknown_heading", unknown_heading},
+          {"range_odometry_unknown", unknown},
+          {"range_odometry_constant_velocity", no_odometry},
+          {"mcl_ranges", mcl},
+          {"mcl_scan", mcl_scan, true},
+          {"mrpt_mcl_ranges", mrpt},
+          {"mrpt_mcl_scan", mrpt_scan, true}};
+}
+
+class EveryEstimator : public ::testing::TestWithParam<Subject> {
+ protected:
+  std::unique_ptr<Estimator> make() const { return yardstick::makeEstimator(GetParam().config, smallMap()); }
+  std::vector<Measurement> log(double duration = 6.0) const {
+    return smallRun({.duration = duration, .scans = GetParam().uses_scans});
+  }
+};
+
+bool sameBits(const Estimate& a, const Estimate& b) {
+  return a.stamp == b.stamp && a.T_map_body.translation == b.T_map_body.translation &&
+         a.T_map_body.rotation.coeffs() == b.T_map_body.rotation.coeffs() && a.covariance == b.covariance;
+}
+
+bool sameBits(const std::optional<Estimate>& a, const std::optional<Estimate>& b) {
+  return a.has_value() == b.has_value() && (!a || sameBits(*a, *b));
+}
+
+void expectSound(const Estimate& estimate) {
+  const Matrix<6, 6>& P = estimate.covariance;
+  ASSERT_TRUE(P.allFinite());
+  ASSERT_TRUE(estimate.T_map_body.translation.allFinite());
+  EXPECT_LE((P - P.transpose()).norm(), 1e-9 * (1.0 + P.norm()));
+  const double least = Eigen::SelfAdjointEigenSolver<Matrix<6, 6>>(P).eigenvalues().minCoeff();
+  EXPECT_GE(least, -1e-9 * (1.0 + P.norm()));
+}
+
+std::vector<Measurement> oddities() {
+  const auto nan = std::numeric_limits<double>::quiet_NaN();
+  BeaconRange negative;
+  negative.range = -1.0;
+  BeaconRange not_a_number;
+  not_a_number.range = nan;
+  BeaconRange stranger;
+  stranger.anchor = 999;
+  stranger.range = 5.0;
+  OdometryIncrement broken;
+  broken.increment.yaw = nan;
+  ImuSample imu;
+  return {{runStamp(7.0), "uwb", negative},       {runStamp(7.0), "uwb", not_a_number},
+          {runStamp(7.0), "uwb", stranger},       {runStamp(7.0), "wheels", broken},
+          {runStamp(7.0), "laser", Scan2D{}},     {runStamp(7.0), "imu", imu},
+          {runStamp(7.0), "ticks", WheelTicks{}}, {runStamp(7.0), "truth", PoseTruth{}}};
+}
+
+}  // namespace
+
+TEST_P(EveryEstimator, SameInputGivesBitSameOutput) {
+  const auto first = make();
+  const auto second = make();
+  for (const Measurement& m : log()) {
+    const IngestReport a = first->ingest(m);
+    const IngestReport b = second->ingest(m);
+    ASSERT_EQ(a.verdict, b.verdict);
+    ASSERT_TRUE(sameBits(first->estimateAt(m.stamp), second->estimateAt(m.stamp)));
+  }
+}
+
+TEST_P(EveryEstimator, CovarianceStaysFiniteSymmetricAndPositive) {
+  const auto estimator = make();
+  bool answered = false;
+  for (const Measurement& m : log(12.0)) {
+    (void)estimator->ingest(m);
+    if (const auto estimate = estimator->estimateAt(m.stamp)) {
+      expectSound(*estimate);
+      answered = true;
+    }
+  }
+  EXPECT_TRUE(answered);
+}
+
+TEST_P(EveryEstimator, AskingChangesNothing) {
+  const auto asked = make();
+  const auto quiet = make();
+  const auto run = log();
+  for (const Measurement& m : run) {
+    (void)asked->ingest(m);
+    (void)quiet->ingest(m);
+    for (const double ahead : {0.0, 0.05, 3.0}) (void)asked->estimateAt(m.stamp + durationFromSeconds(ahead));
+    (void)asked->diagnostics();
+  }
+  EXPECT_TRUE(sameBits(asked->estimateAt(run.back().stamp), quiet->estimateAt(run.back().stamp)));
+}
+
+TEST_P(EveryEstimator, StrangeReadingsGetAVerdictAndChangeNothing) {
+  const auto estimator = make();
+  for (const Measurement& m : log()) (void)estimator->ingest(m);
+  const auto before = estimator->estimateAt(runStamp(7.0));
+  for (const Measurement& odd : oddities()) {
+    const IngestReport report = estimator->ingest(odd);
+    EXPECT_NE(report.verdict, Verdict::Applied) << readingName(odd.reading);
+    EXPECT_FALSE(report.reason.empty()) << readingName(odd.reading);
+    EXPECT_TRUE(sameBits(before, estimator->estimateAt(runStamp(7.0)))) << readingName(odd.reading);
+  }
+}
+
+TEST_P(EveryEstimator, OlderThanTheStateIsTooOldAndChangesNothing) {
+  const auto estimator = make();
+  const auto run = log();
+  for (const Measurement& m : run) (void)estimator->ingest(m);
+  const auto before = estimator->estimateAt(run.back().stamp);
+  Measurement old = run[2];
+  old.stamp = runStamp(-1.0);
+  EXPECT_EQ(estimator->ingest(old).verdict, Verdict::TooOld);
+  EXPECT_TRUE(sameBits(before, estimator->estimateAt(run.back().stamp)));
+}
+
+TEST_P(EveryEstimator, EqualStampsAndZeroIncrementsAreLegal) {
+  const auto estimator = make();
+  const auto run = log();
+  for (const Measurement& m : run) (void)estimator->ingest(m);
+  const auto before = estimator->estimateAt(run.back().stamp);
+  OdometryIncrement still;
+  still.interval = Duration{0};
+  const IngestReport report = estimator->ingest({run.back().stamp, "wheels", still});
+  EXPECT_NE(report.verdict, Verdict::TooOld);
+  const auto after = estimator->estimateAt(run.back().stamp);
+  ASSERT_EQ(before.has_value(), after.has_value());
+  if (before) EXPECT_LT((before->T_map_body.translation - after->T_map_body.translation).norm(), 0.25);
+}
+
+TEST_P(EveryEstimator, AnswersNothingBeforeTheFirstMeasurement) {
+  EXPECT_FALSE(make()->estimateAt(runStamp(0.0)));
+}
+
+TEST_P(EveryEstimator, UncertaintyDoesNotShrinkWhileNothingIsHeard) {
+  const auto estimator = make();
+  const auto run = log();
+  for (const Measurement& m : run) (void)estimator->ingest(m);
+  const auto now = estimator->estimateAt(run.back().stamp);
+  const auto later = estimator->estimateAt(run.back().stamp + durationFromSeconds(5.0));
+  ASSERT_TRUE(now && later);
+  EXPECT_GE(later->planarCovariance().trace(), now->planarCovariance().trace() * (1.0 - 1e-9));
+}
+
+TEST_P(EveryEstimator, ResetStartsOverFromThePrior) {
+  const auto estimator = make();
+  for (const Measurement& m : log()) (void)estimator->ingest(m);
+  const Belief<Pose2> prior{{3.0, 4.0, 0.5}, Vector<3>(0.01, 0.01, 0.001).asDiagonal()};
+  estimator->reset(runStamp(100.0), prior);
+  const auto estimate = estimator->estimateAt(runStamp(100.0));
+  ASSERT_TRUE(estimate);
+  EXPECT_NEAR(estimate->T_map_body.translation.x(), 3.0, 0.05);
+  EXPECT_NEAR(estimate->T_map_body.translation.y(), 4.0, 0.05);
+  EXPECT_NEAR(estimate->T_map_body.yaw(), 0.5, 0.05);
+}
+
+TEST_P(EveryEstimator, FollowsTheTruthOnAnEasyRun) {
+  const auto estimator = make();
+  const auto run = log(20.0);
+  for (const Measurement& m : run) (void)estimator->ingest(m);
+  const auto estimate = estimator->estimateAt(run.back().stamp);
+  ASSERT_TRUE(estimate);
+  const Pose2 truth = truthAt(seconds(run.back().stamp - runStamp(0.0)));
+  EXPECT_LT((estimate->T_map_body.translation.head<2>() - truth.translation()).norm(), 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Contract, EveryEstimator, ::testing::ValuesIn(subjects()),
+                         [](const auto& named) { return named.param.name; });
+
+}  // namespace pos::estimation
