@@ -150,6 +150,8 @@ RangeLikelihood validated(RangeLikelihood config) {
   requireShare(config.outlier_probability, "outlier_probability");
   requirePositive(config.range_max, "range_max_m");
   requireNotNegative(config.bias_sigma, "bias_sigma_m");
+  requirePositive(config.bias_time, "bias_time_s");
+  requireNotNegative(config.correlation_length, "correlation_length_m");
   if (config.sigma >= config.range_max) {
     refuse("the sigma of a range exceeds the longest range", "sigma_m", std::to_string(config.sigma),
            "below range_max_m = " + std::to_string(config.range_max));
@@ -163,6 +165,7 @@ ScanLikelihood validated(ScanLikelihood config) {
   requireShare(config.outlier_probability, "outlier_probability");
   requirePositive(config.distance_max, "distance_max_m");
   requirePositive(config.tempering, "tempering");
+  requireNotNegative(config.correlation_length, "correlation_length_m");
   return config;
 }
 
@@ -200,6 +203,7 @@ MclConfig validated(MclConfig config) {
 
 MrptMclConfig validated(MrptMclConfig config) {
   requireValid(config.start, "start");
+  requireValid(config.odometry_noise, "odometry_noise");
   requireUniqueTags(config.tags);
   requireFinite(config.body_height, "body_height_m");
   requireOneSensor(config.use_ranges, config.use_scans);

@@ -92,7 +92,8 @@ OptionTable<ScanLikelihood> scanLikelihoodOptions() {
       .number("tempering", &ScanLikelihood::tempering, between(0.0001, 1),
               "Further exponent on the scan's likelihood.")
       .number("correlation_length_m", &ScanLikelihood::correlation_length, between(0, 1000),
-              "Beams ending, and scans taken, this near each other share their error and count as one; 0 counts all.")
+              "Beams ending, and scans taken, this near each other share their error and count as one; 0 "
+              "counts all.")
       .check(kValid);
 }
 
@@ -121,13 +122,14 @@ std::string typeName(const estimation::EstimatorConfig& config) {
 
 OptionTable<StartConfig> startOptions() {
   return OptionTable<StartConfig>("start", "What is known of the pose at the first measurement.")
-      .choice("mode", &StartConfig::mode,
-              {{"known", StartMode::Known},
-               {"unknown_heading", StartMode::UnknownHeading},
-               {"unknown", StartMode::Unknown},
-               {"at_truth", StartMode::AtTruth}},
-              "Whether position and heading, the position alone, or nothing is known; at_truth takes the first "
-              "reference pose as the surveyed mark of the start (its heading only where the reference has one).")
+      .choice(
+          "mode", &StartConfig::mode,
+          {{"known", StartMode::Known},
+           {"unknown_heading", StartMode::UnknownHeading},
+           {"unknown", StartMode::Unknown},
+           {"at_truth", StartMode::AtTruth}},
+          "Whether position and heading, the position alone, or nothing is known; at_truth takes the first "
+          "reference pose as the surveyed mark of the start (its heading only where the reference has one).")
       .number(
           "x_m", [](auto& start) -> auto& { return start.pose.x; }, anything(), "East in the map.")
       .number(
@@ -241,6 +243,8 @@ OptionTable<MrptMclConfig> mrptMclOptions() {
   using Config = MrptMclConfig;
   return OptionTable<Config>("mrpt_mcl", "MRPT's own particle filter, for comparison.")
       .table("start", &Config::start, startOptions(), "What is known of the pose at the first measurement.")
+      .table("odometry_noise", &Config::odometry_noise, odometryNoiseOptions(),
+             "How odometry errors grow with way, turning and time.")
       .list("tags", &Config::tags, tagOptions(), "Where the tags sit; goes before what the log says of it.")
       .number("body_height_m", &Config::body_height, between(-10000, 10000),
               "Height of the body frame in the map.")

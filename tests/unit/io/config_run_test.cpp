@@ -51,11 +51,12 @@ TEST(ConfigRun, EveryKeyReachesItsMember) {
   EXPECT_EQ(range_odometry.gate, (estimation::GateConfig{0.99, 4.0, 0.5, 9.0}));
   const auto& mcl = std::get<MclConfig>(run.estimators[2].config);
   EXPECT_EQ(mcl.particles.max, 30000);
-  EXPECT_EQ(mcl.scan, (estimation::ScanLikelihood{90, 0.2, 0.3, 2.0, 0.5}));
+  EXPECT_EQ(mcl.scan, (estimation::ScanLikelihood{90, 0.2, 0.3, 2.0, 0.5, 0.25}));
   EXPECT_EQ(mcl.seed, 42u);
   const auto& yardstick = std::get<MrptMclConfig>(run.estimators[3].config);
   EXPECT_FALSE(yardstick.adaptive_size);
   EXPECT_EQ(yardstick.particles, 3000);
+  EXPECT_EQ(yardstick.odometry_noise.position_per_sqrt_s, 0.003);
 }
 
 /// Paths of all leaves that the text of a config shows with the same value as the text of the defaults.

@@ -57,8 +57,8 @@ estimators:
     body_height_m: 0.5
     use_ranges: false
     use_scans: true
-    range: {sigma_m: 0.3, outlier_probability: 0.2, range_max_m: 50, bias_sigma_m: 0.1}
-    scan: {beams: 90, sigma_m: 0.2, outlier_probability: 0.3, distance_max_m: 2, tempering: 0.5}
+    range: {sigma_m: 0.3, outlier_probability: 0.2, range_max_m: 50, bias_sigma_m: 0.1, bias_time_s: 20, correlation_length_m: 3}
+    scan: {beams: 90, sigma_m: 0.2, outlier_probability: 0.3, distance_max_m: 2, tempering: 0.5, correlation_length_m: 0.25}
     particles: {min: 100, max: 30000, kld_epsilon: 0.03, kld_z: 3, bin_position_m: 0.5, bin_yaw_deg: 20}
     resample_below: 0.6
     injection_slow: 0.002
@@ -67,6 +67,7 @@ estimators:
   - name: yardstick
     type: mrpt_mcl
     start: {mode: known}
+    odometry_noise: {position_m_per_sqrt_s: 0.003}
     tags: []
     body_height_m: 0.25
     use_ranges: false
