@@ -160,10 +160,11 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
   std::string rows;
   for (const eval::EstimatorSummary& estimator : run.estimators) {
     for (const NamedValue& v : estimator.diagnostics) {
-      rows += "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th><td style=\"text-align:left\">" +
-              escaped(v.name) + "</td>" + element("td", fixed(v.value, decimalsFor(v))) +
-              element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, decimalsFor(v)) : std::string(kNoValue)) +
-              "</tr>\n";
+      rows +=
+          "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th><td style=\"text-align:left\">" +
+          escaped(v.name) + "</td>" + element("td", fixed(v.value, decimalsFor(v))) +
+          element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, decimalsFor(v)) : std::string(kNoValue)) +
+          "</tr>\n";
     }
   }
   if (rows.empty()) return "";
