@@ -132,7 +132,9 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   if (truth == nullptr || truth->poses.empty()) return summary;
   const Matches matches = associate(record.estimates, *truth, options.association);
   const Alignment shift = alignment(matches.pairs, options.alignment, *truth);
-  const ErrorSeries errors = errorSeries(matches.pairs, shift, *truth, options.tangent);
+  PathTangentOptions tangent = options.tangent;
+  tangent.max_truth_gap = options.association.max_truth_gap;  // one idea of a hole in the truth
+  const ErrorSeries errors = errorSeries(matches.pairs, shift, *truth, tangent);
   Evaluation e = evaluation(matches, errors, shift);
   e.relative = relativeErrors(errors, options.relative);
   e.xy = errorPlot(errors, Component::Xy, start, options.plot_points);

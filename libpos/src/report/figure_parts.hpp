@@ -9,6 +9,7 @@
 #include "pos/report/axes.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/svg.hpp"
+#include "pos/report/text.hpp"
 
 namespace pos::report {
 
@@ -27,7 +28,8 @@ template <class Shown>
 std::vector<LegendEntry> estimatorLegend(const eval::RunSummary& run, Shown shown) {
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < run.estimators.size(); ++i) {
-    if (shown(run.estimators[i])) entries.push_back({run.estimators[i].name, strokeClass(i)});
+    if (shown(run.estimators[i]))
+      entries.push_back({shortened(run.estimators[i].name, kNameCharacters), strokeClass(i)});
   }
   return entries;
 }

@@ -12,8 +12,8 @@ namespace {
 
 using eval::PathPoint;
 
-/// Dark blue over magenta to orange: even steps of brightness, told apart by every kind of colour vision, and
-/// visible on white and on dark paper.
+/// Blue over magenta to orange: no red-green contrast is needed, and both ends show on white and on dark
+/// paper.
 constexpr std::array<std::string_view, 8> kErrorColours{"#2f6fd0", "#6a63cf", "#9657c0", "#b94aa5",
                                                         "#d24580", "#e05258", "#e8702f", "#f0980f"};
 

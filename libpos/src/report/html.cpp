@@ -27,7 +27,7 @@ padding:.7rem 1rem}.warnings ul{margin:.2rem 0 0;padding-left:1.2rem}
 table{border-collapse:collapse;width:100%;font-size:.86rem;font-variant-numeric:tabular-nums}
 th,td{padding:.42rem .5rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
 tr:last-child td,tr:last-child th{border-bottom:0}th:first-child,td:first-child{text-align:left}
-thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600}
+thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600;white-space:normal;overflow-wrap:anywhere;min-width:9rem}
 td.best{background:var(--best);font-weight:600}.star{color:var(--accent)}
 .note{color:var(--muted);font-size:.88rem;margin:.5rem 0 0}
 figure{margin:0 0 1.6rem;background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:14px 14px 10px}
@@ -160,10 +160,11 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
   std::string rows;
   for (const eval::EstimatorSummary& estimator : run.estimators) {
     for (const NamedValue& v : estimator.diagnostics) {
-      rows += "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th><td style=\"text-align:left\">" +
-              escaped(v.name) + "</td>" + element("td", fixed(v.value, decimalsFor(v))) +
-              element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, decimalsFor(v)) : std::string(kNoValue)) +
-              "</tr>\n";
+      rows +=
+          "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th><td style=\"text-align:left\">" +
+          escaped(v.name) + "</td>" + element("td", fixed(v.value, decimalsFor(v))) +
+          element("td", v.sigma > 0.0 ? "\u00b1 " + fixed(v.sigma, decimalsFor(v)) : std::string(kNoValue)) +
+          "</tr>\n";
     }
   }
   if (rows.empty()) return "";

@@ -94,6 +94,7 @@ void Svg::circle(Pixel centre, double radius, std::string_view classes) {
 }
 
 void Svg::polyline(const std::vector<Pixel>& points, std::string_view classes) {
+  if (points.size() == 1) circle(points.front(), 2.5, std::string(classes) + " curve");
   if (points.size() < 2) return;
   body_ += "<polyline points=\"" + pointList(points) + "\" class=\"" + escaped(classes) + "\"/>\n";
 }
@@ -103,9 +104,10 @@ void Svg::polygon(const std::vector<Pixel>& points, std::string_view classes) {
 }
 
 void Svg::colouredLine(const std::vector<Pixel>& points, std::string_view colour) {
-  if (points.size() < 2) return;
-  body_ +=
-      "<polyline points=\"" + pointList(points) + "\" class=\"thick\" stroke=\"" + escaped(colour) + "\"/>\n";
+  if (points.empty()) return;
+  const std::string dot = points.size() == 1 ? " " + pointList(points) : "";  // round caps make it visible
+  body_ += "<polyline points=\"" + pointList(points) + dot + "\" class=\"thick\" stroke=\"" +
+           escaped(colour) + "\"/>\n";
 }
 
 void Svg::colouredRect(const Box& box, std::string_view colour) {

@@ -167,13 +167,19 @@ TEST(RelativeErrors, ScaleErrorOnAStraightLineGrowsWithTheLength) {
 TEST(RelativeErrors, AWrongHeadingAtTheStartDoesNotCount) {
   Truth truth;
   std::vector<Estimate> estimates;
-  const double wrong = 0.3;
+  const double heading = 0.7;
+  const double wrong = 1.0;
   for (int i = 0; i <= 50; ++i) {
-    truth.poses.push_back({stampFromSeconds(i), Pose3::fromPlanar({1.0 * i, 0.0, 0.0})});
+    truth.poses.push_back(
+        {stampFromSeconds(i), Pose3::fromPlanar({i * std::cos(heading), i * std::sin(heading), heading})});
     estimates.push_back(planarEstimate(stampFromSeconds(i), {i * std::cos(wrong), i * std::sin(wrong), wrong},
                                        Matrix<3, 3>::Identity()));
   }
-  EXPECT_LT(relativeErrors(seriesOf(estimates, truth), {{20.0}, {}}).at(0).translation.max, 1e-9);
+  const RelativeErrorOptions options{{20.0}, {}};
+  EXPECT_LT(relativeErrors(seriesOf(estimates, truth), options).at(0).translation.max, 1e-9);
+  truth.has_yaw = false;  // then it does: a chord of 20 m seen under 0.3 rad
+  EXPECT_NEAR(relativeErrors(seriesOf(estimates, truth), options).at(0).translation.max,
+              40.0 * std::sin(0.15), 1e-9);
 }
 
 }  // namespace pos::eval

@@ -118,6 +118,7 @@ TEST(ReportHtml, DrawsARunWithASingleEstimate) {
   const std::string html = reportHtml(run, "");
   EXPECT_FALSE(hasNonNumber(html));
   EXPECT_THAT(html, HasSubstr("0.500"));
+  EXPECT_THAT(html, testing::ContainsRegex("<polyline points=\"([0-9.,]+) [0-9.,]+\" class=\"thick\""));
 }
 
 TEST(ReportHtml, DrawsWithoutTruth) {

@@ -48,8 +48,12 @@ void expectValid(const json& value, const json& rule, const json& root, const st
     for (const json& type : types) fits = fits || isOfType(value, type.get<std::string>());
     EXPECT_TRUE(fits) << path << " is " << value.type_name() << ", not " << types;
   }
-  if (rule.contains("const")) EXPECT_EQ(value, rule["const"]) << path;
-  if (rule.contains("enum")) EXPECT_THAT(rule["enum"], testing::Contains(value)) << path;
+  if (rule.contains("const")) {
+    EXPECT_EQ(value, rule["const"]) << path;
+  }
+  if (rule.contains("enum")) {
+    EXPECT_THAT(rule["enum"], testing::Contains(value)) << path;
+  }
   if (value.is_array() && rule.contains("items")) {
     for (const json& item : value) expectValid(item, rule["items"], root, path + "[]");
   }
@@ -90,7 +94,8 @@ TEST(SummaryJson, HasEveryPromisedFigure) {
     EXPECT_TRUE(e["compute"][figure].is_number()) << figure;
   }
   EXPECT_TRUE(e["coverage"].is_number());
-  EXPECT_EQ(e["verdicts"]["sensors"]["uwb"]["applied"].get<int>() + e["verdicts"]["sensors"]["uwb"]["gated"].get<int>(),
+  EXPECT_EQ(e["verdicts"]["sensors"]["uwb"]["applied"].get<int>() +
+                e["verdicts"]["sensors"]["uwb"]["gated"].get<int>(),
             4 * 1997);
   EXPECT_EQ(all["run"]["log_end"]["damaged"], true);
 }
@@ -98,8 +103,8 @@ TEST(SummaryJson, HasEveryPromisedFigure) {
 TEST(SummaryJson, YawIsInDegrees) {
   const eval::Statistics* yaw = demo().estimators[0].evaluation->find(eval::Component::Yaw);
   const json all = json::parse(summaryJson(demo()));
-  EXPECT_NEAR(all["estimators"]["range_odometry"]["errors"]["yaw"]["rmse"].get<double>(), yaw->rmse * 180.0 / kPi,
-              1e-12);
+  EXPECT_NEAR(all["estimators"]["range_odometry"]["errors"]["yaw"]["rmse"].get<double>(),
+              yaw->rmse * 180.0 / kPi, 1e-12);
 }
 
 TEST(SummaryJson, WithoutComputeTimesItIsTheSameEveryTime) {

@@ -104,7 +104,7 @@ struct RunSummary {
 struct EvaluationOptions {
   AssociationOptions association;
   AlignmentMode alignment = AlignmentMode::None;
-  PathTangentOptions tangent;
+  PathTangentOptions tangent;  ///< its max_truth_gap is taken from `association`
   RelativeErrorOptions relative;
   std::size_t plot_points = 2000;  ///< most points of one drawn series
 };

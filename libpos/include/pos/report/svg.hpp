@@ -41,9 +41,10 @@ class Svg {
   void line(Pixel a, Pixel b, std::string_view classes);
   void rect(const Box& box, std::string_view classes);
   void circle(Pixel centre, double radius, std::string_view classes);
+  /// A single point becomes a small ring.
   void polyline(const std::vector<Pixel>& points, std::string_view classes);
   void polygon(const std::vector<Pixel>& points, std::string_view classes);
-  /// A line in a colour given as "#rrggbb".
+  /// A broad line in a colour given as "#rrggbb"; a single point becomes a dot.
   void colouredLine(const std::vector<Pixel>& points, std::string_view colour);
   void colouredRect(const Box& box, std::string_view colour);
   /// Text is escaped here. Classes: "start", "middle" or "end" for the anchor, "title", "small", "muted".
