@@ -34,6 +34,14 @@ std::string classOf(const CSerializable& object) {
   return object.GetRuntimeClass()->className;
 }
 
+/// Null for other objects. The commonest classes are told without a dynamic_cast (bench/rawlog_read).
+CObservation* asObservation(CSerializable& object) {
+  if (is<CObservationIMU>(object) || is<CObservationBeaconRanges>(object)) {
+    return static_cast<CObservation*>(&object);
+  }
+  return dynamic_cast<CObservation*>(&object);
+}
+
 }  // namespace
 
 std::optional<Measurement> RawlogIntake::pop() {
@@ -75,7 +83,7 @@ const Companion* RawlogIntake::companionFor(std::string_view kind) const {
 void RawlogIntake::take(CSerializable* object) {
   if (object == nullptr) {
     skip("nullptr");
-  } else if (auto* observation = dynamic_cast<CObservation*>(object); observation != nullptr) {
+  } else if (auto* observation = asObservation(*object); observation != nullptr) {
     const Frame index = frames_ == 0 && !actions_seen_ ? Frame{observations_} : Frame{};
     if (takeCompanion(*observation)) return;
     ++observations_;
@@ -197,13 +205,13 @@ void RawlogIntake::takeExtra(const Extra<T>& extra, const char* what, bool& dist
 }
 
 template <typename T>
-void RawlogIntake::takeSimple(const std::optional<T>& reading, const char* unusable,
-                              CObservation& observation, Stamp stamp, Frame frame) {
+void RawlogIntake::takeSimple(std::optional<T> reading, const char* unusable, CObservation& observation,
+                              Stamp stamp, Frame frame) {
   if (!reading) {
     skip(classOf(observation) + unusable);
     return;
   }
-  Measurement measurement{stamp, std::move(observation.sensorLabel), *reading};
+  Measurement measurement{stamp, std::move(observation.sensorLabel), std::move(*reading)};
   const std::string_view name = readingName(measurement.reading);
   if (measurement.sensor.empty()) measurement.sensor = name;
   if (const Companion* extra = companionFor(name)) {

@@ -70,7 +70,7 @@ class RawlogIntake {
   void releaseLoneAction();
 
   template <typename T>
-  void takeSimple(const std::optional<T>& reading, const char* unusable, mrpt::obs::CObservation& observation,
+  void takeSimple(std::optional<T> reading, const char* unusable, mrpt::obs::CObservation& observation,
                   Stamp stamp, Frame frame);
   template <typename T>
   void takeExtra(const Extra<T>& extra, const char* what, bool& distrusted, const std::string& label,
