@@ -25,6 +25,15 @@ class CSensoryFrame;
 
 namespace pos::io {
 
+template <typename T>
+bool is(const mrpt::serialization::CSerializable& object) {
+  return object.GetRuntimeClass() == CLASS_ID(T);
+}
+
+inline std::string classOf(const mrpt::serialization::CSerializable& object) {
+  return object.GetRuntimeClass()->className;
+}
+
 class RawlogIntake {
  public:
   /// `opened` is MRPT's clock when the file was opened: a stamp between then and the moment of reading was
