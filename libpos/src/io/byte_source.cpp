@@ -65,11 +65,6 @@ std::size_t ByteSource::readSlowly(void* target, std::size_t count) {
   return done;
 }
 
-std::span<const std::uint8_t> ByteSource::peek(std::size_t count) {
-  if (count > end_ - begin_) fill(count);
-  return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
-}
-
 void ByteSource::fill(std::size_t wanted) {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());

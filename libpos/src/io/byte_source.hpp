@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,7 +26,10 @@ class ByteSource {
     return readSlowly(target, count);
   }
   /// The next bytes without consuming them: `count` of them, or fewer at the end of the readable part.
-  std::span<const std::uint8_t> peek(std::size_t count);
+  std::span<const std::uint8_t> peek(std::size_t count) {
+    if (count > end_ - begin_) fill(count);
+    return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
+  }
   /// True when nothing more can be read.
   bool atEnd() { return peek(1).empty(); }
   /// Bytes consumed so far, counted in the uncompressed stream.

@@ -21,17 +21,16 @@ namespace {
 using namespace mrpt::obs;
 using mrpt::serialization::CSerializable;
 
-template <typename T>
-bool is(const CSerializable& object) {
-  return object.GetRuntimeClass() == CLASS_ID(T);
-}
-
 std::string labelOr(const std::string& label, const char* reading) {
   return label.empty() ? reading : label;
 }
 
-std::string classOf(const CSerializable& object) {
-  return object.GetRuntimeClass()->className;
+/// Null for other objects. The commonest classes are told without a dynamic_cast (bench/rawlog_read).
+CObservation* asObservation(CSerializable& object) {
+  if (is<CObservationIMU>(object) || is<CObservationBeaconRanges>(object)) {
+    return static_cast<CObservation*>(&object);
+  }
+  return dynamic_cast<CObservation*>(&object);
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ const Companion* RawlogIntake::companionFor(std::string_view kind) const {
 void RawlogIntake::take(CSerializable* object) {
   if (object == nullptr) {
     skip("nullptr");
-  } else if (auto* observation = dynamic_cast<CObservation*>(object); observation != nullptr) {
+  } else if (auto* observation = asObservation(*object); observation != nullptr) {
     const Frame index = frames_ == 0 && !actions_seen_ ? Frame{observations_} : Frame{};
     if (takeCompanion(*observation)) return;
     ++observations_;
@@ -87,28 +86,6 @@ void RawlogIntake::take(CSerializable* object) {
   }
 }
 
-void RawlogIntake::hold(CSerializable::Ptr action) {
-  releaseLoneAction();
-  actions_seen_ = true;
-  pending_action_ = std::move(action);
-}
-
-void RawlogIntake::finish() {
-  releaseLoneAction();
-  if (companion_) refuse("companion line without its observation");
-  companion_.reset();
-}
-
-void RawlogIntake::releaseLoneAction() {
-  const CSerializable::Ptr held = std::exchange(pending_action_, nullptr);
-  if (held == nullptr) return;
-  if (frames_ > 0) {
-    refuse("odometry action without a frame after it (the end of its motion is unknown)");
-    return;
-  }
-  takeAction(static_cast<CActionCollection&>(*held), std::nullopt, std::nullopt);
-}
-
 bool RawlogIntake::takeCompanion(CObservation& observation) {
   if (!is<CObservationComment>(observation)) return false;
   auto found = Companion::fromText(static_cast<CObservationComment&>(observation).text);
@@ -117,52 +94,6 @@ bool RawlogIntake::takeCompanion(CObservation& observation) {
   companion_ = std::move(found);
   companion_stamp_ = observation.timestamp;
   return true;
-}
-
-void RawlogIntake::takeFrame(CSensoryFrame& frame) {
-  ++frames_;
-  std::optional<Stamp> stamp;
-  std::optional<Stamp> any;
-  for (const auto& observation : frame) {
-    if (observation == nullptr) continue;
-    const auto own = stampOf(observation->timestamp);
-    if (!any) any = own;
-    if (!stamp && is<CObservation2DRangeScan>(*observation)) stamp = own;
-  }
-  if (!stamp) stamp = any;
-  const CSerializable::Ptr held = std::exchange(pending_action_, nullptr);
-  Frame index;
-  if (held != nullptr) {
-    index = pairs_++;
-    auto& actions = static_cast<CActionCollection&>(*held);
-    for (const auto& action : actions) {
-      if (!stamp && action.get() != nullptr) stamp = stampOf(action->timestamp);
-    }
-    pair_stamp_ = stamp;
-    takeAction(actions, stamp, index);
-  }
-  for (const auto& observation : frame) {
-    if (observation == nullptr) {
-      skip("nullptr");
-    } else {
-      takeObservation(*observation, stamp, index);
-    }
-  }
-  if (stamp) last_frame_stamp_ = stamp;
-}
-
-void RawlogIntake::takeAction(CActionCollection& actions, std::optional<Stamp> stamp, Frame frame) {
-  for (const auto& action : actions) {
-    if (action.get() == nullptr) {
-      skip("nullptr");
-    } else if (!is<CActionRobotMovement2D>(*action)) {
-      skip(classOf(*action));
-    } else if (const auto when = stamp ? stamp : stampOf(action->timestamp)) {
-      takeMovement(static_cast<const CActionRobotMovement2D&>(*action), *when, frame);
-    } else {
-      refuse("no time stamp");
-    }
-  }
 }
 
 void RawlogIntake::takeMovement(const CActionRobotMovement2D& movement, Stamp stamp, Frame frame) {
@@ -197,13 +128,13 @@ void RawlogIntake::takeExtra(const Extra<T>& extra, const char* what, bool& dist
 }
 
 template <typename T>
-void RawlogIntake::takeSimple(const std::optional<T>& reading, const char* unusable,
-                              CObservation& observation, Stamp stamp, Frame frame) {
+void RawlogIntake::takeSimple(std::optional<T> reading, const char* unusable, CObservation& observation,
+                              Stamp stamp, Frame frame) {
   if (!reading) {
     skip(classOf(observation) + unusable);
     return;
   }
-  Measurement measurement{stamp, std::move(observation.sensorLabel), *reading};
+  Measurement measurement{stamp, std::move(observation.sensorLabel), std::move(*reading)};
   const std::string_view name = readingName(measurement.reading);
   if (measurement.sensor.empty()) measurement.sensor = name;
   if (const Companion* extra = companionFor(name)) {

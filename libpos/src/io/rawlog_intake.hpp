@@ -25,6 +25,15 @@ class CSensoryFrame;
 
 namespace pos::io {
 
+template <typename T>
+bool is(const mrpt::serialization::CSerializable& object) {
+  return object.GetRuntimeClass() == CLASS_ID(T);
+}
+
+inline std::string classOf(const mrpt::serialization::CSerializable& object) {
+  return object.GetRuntimeClass()->className;
+}
+
 class RawlogIntake {
  public:
   /// `opened` is MRPT's clock when the file was opened: a stamp between then and the moment of reading was
@@ -70,7 +79,7 @@ class RawlogIntake {
   void releaseLoneAction();
 
   template <typename T>
-  void takeSimple(const std::optional<T>& reading, const char* unusable, mrpt::obs::CObservation& observation,
+  void takeSimple(std::optional<T> reading, const char* unusable, mrpt::obs::CObservation& observation,
                   Stamp stamp, Frame frame);
   template <typename T>
   void takeExtra(const Extra<T>& extra, const char* what, bool& distrusted, const std::string& label,

@@ -1,101 +1,14 @@
 /// One test for each trap of MRPT that the reader takes out of the way.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationBeaconRanges.h>
-#include <mrpt/obs/CObservationBearingRange.h>
-#include <mrpt/obs/CObservationGPS.h>
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
 
-#include <cmath>
 #include <limits>
 
 #include "../../../libpos/src/io/mrpt_conversion.hpp"
-#include "../../../libpos/src/io/mrpt_values.hpp"
-#include "pos/core/error.hpp"
-#include "rawlog_samples.hpp"
+#include "rawlog_mrpt_samples.hpp"
 
 namespace pos::io {
 namespace {
-
-using namespace mrpt::obs;
-using mrpt::serialization::CSerializable;
-
-ReadLog readBack(const std::vector<CSerializable::Ptr>& objects) {
-  const ScratchFolder folder;
-  const std::string path = folder.file("log.rawlog");
-  {
-    mrpt::io::CFileGZOutputStream file(path);
-    auto archive = mrpt::serialization::archiveFrom(file);
-    for (const auto& object : objects) archive << *object;
-  }
-  return readWhole(path);
-}
-
-template <typename T>
-std::shared_ptr<T> observed(double when, const std::string& label = "") {
-  auto observation = std::make_shared<T>();
-  observation->timestamp = stampToMrpt(at(when));
-  observation->sensorLabel = label;
-  return observation;
-}
-
-std::shared_ptr<CObservationOdometry> odometryAt(double when, double x, double y, double yaw) {
-  auto odometry = observed<CObservationOdometry>(when, "wheels");
-  odometry->odometry = {x, y, yaw};
-  return odometry;
-}
-
-std::shared_ptr<CObservationBeaconRanges> rangesAt(mrpt::Clock::time_point stamp, std::vector<float> ranges) {
-  auto observation = std::make_shared<CObservationBeaconRanges>();
-  observation->timestamp = stamp;
-  std::int32_t id = 1;
-  for (const float range : ranges) {
-    CObservationBeaconRanges::TMeasurement measured;
-    measured.beaconID = id++;
-    measured.sensedDistance = range;
-    observation->sensedData.push_back(measured);
-  }
-  return observation;
-}
-
-std::shared_ptr<CActionCollection> moved(double x, bool garbage = false) {
-  CActionRobotMovement2D movement;
-  movement.computeFromOdometry({x, 0.0, 0.0}, {});
-  movement.timestamp = stampToMrpt(at(-50.0));
-  if (garbage) {
-    movement.hasEncodersInfo = true;
-    movement.encoderLeftTicks = 2'117'699'626;
-    movement.hasVelocities = true;
-    movement.velocityLocal = {1.7e-39, 0.0, 0.0};
-  }
-  auto actions = std::make_shared<CActionCollection>();
-  actions->insert(movement);
-  return actions;
-}
-
-std::shared_ptr<CSensoryFrame> frameOf(const std::vector<CObservation::Ptr>& observations) {
-  auto frame = std::make_shared<CSensoryFrame>();
-  for (const auto& observation : observations) frame->insert(observation);
-  return frame;
-}
-
-std::shared_ptr<CObservation2DRangeScan> scanAt(double when) {
-  auto scan = observed<CObservation2DRangeScan>(when);
-  scan->resizeScan(3);
-  for (std::size_t i = 0; i < 3; ++i) {
-    scan->setScanRange(i, 5.0F);
-    scan->setScanRangeValidity(i, true);
-  }
-  return scan;
-}
 
 TEST(RawlogTraps, PoseCovarianceHasYawBeforePitchAndRoll) {
   mrpt::poses::CPose3DPDFGaussian pose;
@@ -216,46 +129,6 @@ TEST(RawlogTraps, EncodersAndSpeedsComeOnlyWhenFlagged) {
   EXPECT_EQ(speeds.yaw_rate, 0.25);
 }
 
-TEST(RawlogTraps, GarbageInAnActionsEncoderFieldsIsRefusedForTheWholeLog) {
-  const auto log = readBack({moved(0.1, true), frameOf({scanAt(0)}), moved(0.1, true), frameOf({scanAt(1)})});
-  ASSERT_EQ(log.measurements.size(), 4U);
-  EXPECT_EQ(log.tally.refused.at("encoder counters that are not credible (uninitialised fields)"), 2U);
-  EXPECT_EQ(log.tally.refused.at("odometry velocities that are not credible (uninitialised fields)"), 2U);
-}
-
-TEST(RawlogTraps, OdometryOfAPairIsStampedWithTheFrameThatEndsItsMotion) {
-  const auto log = readBack({frameOf({scanAt(0)}), moved(0.5), frameOf({scanAt(1)}), moved(0.6)});
-  ASSERT_EQ(log.measurements.size(), 3U);
-  EXPECT_EQ(log.frames[0], std::nullopt);  // before the first action: no pair
-  EXPECT_EQ(log.measurements[1].stamp, at(1));
-  EXPECT_EQ(log.measurements[1].sensor, "odometry");
-  EXPECT_EQ(std::get<OdometryIncrement>(log.measurements[1].reading).interval, durationFromSeconds(1.0));
-  EXPECT_EQ(log.frames[1], 0U);
-  EXPECT_EQ(log.frames[2], 0U);
-  EXPECT_EQ(log.measurements[2].sensor, "scan");
-  ASSERT_EQ(log.tally.refused.size(), 1U);  // the last action: no frame ends its motion
-  EXPECT_EQ(log.format, LogFormat::ActionsAndFrames);
-}
-
-TEST(RawlogTraps, RangesWithoutStampTakeTheScansStamp) {
-  auto late = observed<CObservationIMU>(7);
-  const auto log =
-      readBack({moved(0.1), frameOf({late, rangesAt(INVALID_TIMESTAMP, {4.0F, 5.0F}), scanAt(3)})});
-  ASSERT_EQ(log.measurements.size(), 4U);
-  EXPECT_EQ(log.measurements[0].stamp, at(3));
-  EXPECT_EQ(log.measurements[1].stamp, at(3));
-  EXPECT_EQ(std::get<BeaconRange>(log.measurements[2].reading).anchor, 2);
-  EXPECT_EQ(log.measurements[2].sensor, "range");
-}
-
-TEST(RawlogTraps, AFrameWithoutAnyStampIsCounted) {
-  auto action = moved(0.1);
-  (*action->begin())->timestamp = INVALID_TIMESTAMP;
-  const auto log = readBack({action, frameOf({rangesAt(INVALID_TIMESTAMP, {4.0F})})});
-  EXPECT_TRUE(log.measurements.empty());
-  EXPECT_EQ(log.tally.refused.at("no time stamp"), 2U);
-}
-
 TEST(RawlogTraps, ImpossibleRangesAreRefusedByReason) {
   auto ranges = rangesAt(stampToMrpt(at(0)), {0.0F, std::numeric_limits<float>::quiet_NaN(), 31.0F, 29.0F});
   ranges->maxSensorDistance = 30.0F;
@@ -313,24 +186,6 @@ TEST(RawlogTraps, CorruptClassNamesArePrintedSafely) {
   EXPECT_EQ(messageOf("==== MRPT exception ====\nMessage:  class 'C\xC3\x1B[2J' is bad\nLocation: x.cpp"),
             "class 'C??[2J' is bad");
   EXPECT_EQ(sanitised(std::string(500, 'a'), 10), "aaaaaaaaaa...");
-}
-
-TEST(FrameStamps, AreOneForEachPair) {
-  const ScratchFolder folder;
-  const std::string path = folder.file("pairs.rawlog");
-  {
-    mrpt::io::CFileGZOutputStream file(path);
-    auto archive = mrpt::serialization::archiveFrom(file);
-    archive << *frameOf({scanAt(0)}) << *moved(1) << *frameOf({scanAt(2)}) << *moved(1)
-            << *frameOf({scanAt(4)}) << *moved(1);
-  }
-  EXPECT_THAT(frameStamps(path), ::testing::ElementsAre(at(2), at(4)));
-}
-
-TEST(FrameStamps, AnObservationOnlyLogHasNone) {
-  const ScratchFolder folder;
-  writeLog(folder.file("o.rawlog"), oneOfEachKind());
-  EXPECT_THROW(frameStamps(folder.file("o.rawlog")), DataError);
 }
 
 }  // namespace
