@@ -1,19 +1,24 @@
 #include "pos/estimation/range_likelihood.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pos/core/angle.hpp"
 #include "pos/filters/fast_math.hpp"
+#include "pos/filters/lanes.hpp"
 
 namespace pos::estimation {
+namespace {
+
+constexpr std::size_t kBlock = 256;  // sums of a block fit in the first-level cache
+
+}  // namespace
 
 RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const Headings& headings,
                                  const RangeTerm& term) {
   const std::size_t n = set.size();
-  distance_.resize(n);
   inlier_.resize(n);
-  weight_.resize(n);
   outlier_ = static_cast<float>(term.outlier_probability / term.range_max);
   exponent_ = static_cast<float>(term.exponent);
   const auto peak =
@@ -27,36 +32,39 @@ RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const Headings
   const float dz2 = (anchor.z() - tag.z()) * (anchor.z() - tag.z());
   const float tx = tag.x();
   const float ty = tag.y();
-  const float top = *std::max_element(set.log_weight.begin(), set.log_weight.end());
-  const float* x = set.x.data();
-  const float* y = set.y.data();
-  const float* lw = set.log_weight.data();
-  const float* c = headings.cosine.data();
-  const float* s = headings.sine.data();
-  float* distance = distance_.data();
-  float* inlier = inlier_.data();
-  float* weight = weight_.data();
-  for (std::size_t i = 0; i < n; ++i) {
-    const float dx = ax - x[i] - (c[i] * tx - s[i] * ty);
-    const float dy = ay - y[i] - (s[i] * tx + c[i] * ty);
-    const float d = std::sqrt(dx * dx + dy * dy + dz2);
-    const float nu = range - d;
-    distance[i] = d;
-    inlier[i] = peak * filters::fastExp(scale * nu * nu);
-    weight[i] = filters::fastExp(lw[i] - top);
-  }
+  const float top = filters::laneMax(set.log_weight);
+  const float centre = std::sqrt((ax - set.x[0]) * (ax - set.x[0]) + (ay - set.y[0]) * (ay - set.y[0]) + dz2);
   double total = 0.0;
   double good = 0.0;
   double first = 0.0;
   double second = 0.0;
-  const float centre = distance[0];
-  for (std::size_t i = 0; i < n; ++i) {
-    const double w = weight[i];
-    const double d = distance[i] - centre;
-    total += w;
-    good += w * static_cast<double>(inlier[i]);
-    first += w * d;
-    second += w * d * d;
+  std::array<float, kBlock> w;
+  std::array<float, kBlock> w_inlier;
+  std::array<float, kBlock> w_d;
+  std::array<float, kBlock> w_d2;
+  for (std::size_t begin = 0; begin < n; begin += kBlock) {
+    const std::size_t count = std::min(kBlock, n - begin);
+    const float* __restrict x = set.x.data() + begin;
+    const float* __restrict y = set.y.data() + begin;
+    const float* __restrict lw = set.log_weight.data() + begin;
+    const float* __restrict c = headings.cosine.data() + begin;
+    const float* __restrict s = headings.sine.data() + begin;
+    float* __restrict inlier = inlier_.data() + begin;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float dx = ax - x[i] - (c[i] * tx - s[i] * ty);
+      const float dy = ay - y[i] - (s[i] * tx + c[i] * ty);
+      const float d = std::sqrt(dx * dx + dy * dy + dz2);
+      const float nu = range - d;
+      inlier[i] = peak * filters::relativeWeight(scale * nu * nu);
+      w[i] = filters::relativeWeight(lw[i] - top);
+      w_inlier[i] = w[i] * inlier[i];
+      w_d[i] = w[i] * (d - centre);
+      w_d2[i] = w_d[i] * (d - centre);
+    }
+    total += filters::laneSum({w.data(), count});
+    good += filters::laneSum({w_inlier.data(), count});
+    first += filters::laneSum({w_d.data(), count});
+    second += filters::laneSum({w_d2.data(), count});
   }
   const double mean = first / total;
   const double evidence = good / total + static_cast<double>(outlier_);
