@@ -1,20 +1,18 @@
 #include "pos/filters/particle_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "pos/core/error.hpp"
 #include "pos/filters/fast_math.hpp"
+#include "pos/filters/lanes.hpp"
 
 namespace pos::filters {
 namespace {
 
-float largest(std::span<const float> values) {
-  float top = -std::numeric_limits<float>::infinity();
-  for (const float value : values) top = std::max(top, value);
-  return top;
-}
+constexpr std::size_t kBlock = 256;
 
 /// Sums of w and w^2 with w = exp(log weight - top).
 struct WeightSums {
@@ -24,10 +22,17 @@ struct WeightSums {
 
 WeightSums weightSums(std::span<const float> log_weight, float top) {
   WeightSums sums;
-  for (const float lw : log_weight) {
-    const double w = fastExp(lw - top);
-    sums.first += w;
-    sums.second += w * w;
+  std::array<float, kBlock> w;
+  std::array<float, kBlock> w2;
+  for (std::size_t first = 0; first < log_weight.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, log_weight.size() - first);
+    const float* lw = log_weight.data() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+      w[i] = relativeWeight(lw[i] - top);
+      w2[i] = w[i] * w[i];
+    }
+    sums.first += laneSum({w.data(), count});
+    sums.second += laneSum({w2.data(), count});
   }
   return sums;
 }
@@ -64,7 +69,7 @@ void levelWeights(ParticleSet& set) {
 }
 
 double logSumExp(std::span<const float> log_weight) {
-  const float top = largest(log_weight);
+  const float top = laneMax(log_weight);
   if (!std::isfinite(top)) return static_cast<double>(top);
   return static_cast<double>(top) + std::log(weightSums(log_weight, top).first);
 }
@@ -78,14 +83,14 @@ double normalise(std::span<float> log_weight) {
 }
 
 double effectiveSize(std::span<const float> log_weight) {
-  const WeightSums sums = weightSums(log_weight, largest(log_weight));
+  const WeightSums sums = weightSums(log_weight, laneMax(log_weight));
   return sums.first * sums.first / sums.second;
 }
 
 Moments moments(const ParticleSet& set) {
   const std::size_t n = set.size();
   ensure(n > 0, "no particles to average");
-  const float top = largest(set.log_weight);
+  const float top = laneMax(set.log_weight);
   // Raw moments about particle 0, which lies inside the cloud: no digits are lost to a far origin.
   const float x0 = set.x[0];
   const float y0 = set.y[0];
@@ -94,7 +99,7 @@ Moments moments(const ParticleSet& set) {
   double sine = 0.0;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < n; ++i) {
-    const double w = fastExp(set.log_weight[i] - top);
+    const double w = relativeWeight(set.log_weight[i] - top);
     const SineCosine direction = fastSineCosine(set.yaw[i]);
     total += w;
     cosine += w * static_cast<double>(direction.cosine);
@@ -106,7 +111,7 @@ Moments moments(const ParticleSet& set) {
   const auto mean_yaw = static_cast<float>(yaw);
   Matrix<3, 3> spread = Matrix<3, 3>::Zero();
   for (std::size_t i = 0; i < n; ++i) {
-    const double w = fastExp(set.log_weight[i] - top);
+    const double w = relativeWeight(set.log_weight[i] - top);
     const Vector<3> d(static_cast<double>(set.x[i] - x0) - mean.x(),
                       static_cast<double>(set.y[i] - y0) - mean.y(), fastWrap(set.yaw[i] - mean_yaw));
     spread.noalias() += (w * d) * d.transpose();

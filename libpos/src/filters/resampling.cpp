@@ -5,6 +5,7 @@
 
 #include "pos/core/error.hpp"
 #include "pos/filters/fast_math.hpp"
+#include "pos/filters/lanes.hpp"
 
 namespace pos::filters {
 namespace {
@@ -21,12 +22,10 @@ std::span<const std::uint32_t> SystematicResampler::ancestors(std::span<const fl
   ensure(n > 0 && count > 0, "resampling needs particles");
   ancestors_.resize(count);
   weight_.resize(n);
-  const float top = *std::max_element(log_weight.begin(), log_weight.end());
+  const float top = laneMax(log_weight);
   double total = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    weight_[i] = fastExp(log_weight[i] - top);
-    total += static_cast<double>(weight_[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i) weight_[i] = relativeWeight(log_weight[i] - top);
+  for (std::size_t i = 0; i < n; ++i) total += static_cast<double>(weight_[i]);
   // Parent i owns the teeth k with cumulative before <= k + offset < cumulative after, in units of a tooth.
   const double teeth = static_cast<double>(count) / total;
   double cumulative = 0.0;

@@ -44,10 +44,8 @@ class RangeWeights {
   void apply(filters::ParticleSet& set) const;
 
  private:
-  std::vector<float> distance_;
   std::vector<float> inlier_;  // (1 - p) N(...), 1/m
-  std::vector<float> weight_;
-  float outlier_ = 0.0F;  // p / R, 1/m
+  float outlier_ = 0.0F;       // p / R, 1/m
   float exponent_ = 1.0F;
 };
 

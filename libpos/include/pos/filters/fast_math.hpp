@@ -26,6 +26,13 @@ inline float fastExp(float x) {
   return p * std::bit_cast<float>((exponent + 127) << 23);
 }
 
+/// e^x of a log weight or log likelihood relative to the best one: below e^-40 (4e-18, nothing beside 1) it
+/// stays there, so that a product of two is still a normal number. Numbers smaller than those cost ten times
+/// as much.
+inline float relativeWeight(float x) {
+  return fastExp(std::max(x, -40.0F));
+}
+
 /// ln x for normal x > 0, absolute error below 3e-7 * (1 + |ln x|).
 inline float fastLog(float x) {
   constexpr std::int32_t kSqrtHalf = 0x3f3504f3;
