@@ -3,12 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "pos/core/chi_square.hpp"
-#include "pos/core/error.hpp"
 #include "support/mcl_drive.hpp"
 
 namespace pos::estimation {
