@@ -8,11 +8,16 @@
 #include "pos/core/error.hpp"
 #include "pos/filters/fast_math.hpp"
 #include "pos/filters/lanes.hpp"
+#include "pos/filters/wide.hpp"
 
 namespace pos::filters {
 namespace {
 
 constexpr std::size_t kBlock = 256;
+
+}  // namespace
+
+namespace kernel {
 
 /// Sums of w and w^2 with w = exp(log weight - top).
 struct WeightSums {
@@ -20,7 +25,7 @@ struct WeightSums {
   double second = 0.0;
 };
 
-WeightSums weightSums(std::span<const float> log_weight, float top) {
+POS_WIDE WeightSums weightSums(std::span<const float> log_weight, float top) {
   WeightSums sums;
   std::array<float, kBlock> w;
   std::array<float, kBlock> w2;
@@ -37,7 +42,7 @@ WeightSums weightSums(std::span<const float> log_weight, float top) {
   return sums;
 }
 
-}  // namespace
+}  // namespace kernel
 
 void ParticleSet::resize(std::size_t count) {
   x.resize(count);
@@ -71,7 +76,7 @@ void levelWeights(ParticleSet& set) {
 double logSumExp(std::span<const float> log_weight) {
   const float top = laneMax(log_weight);
   if (!std::isfinite(top)) return static_cast<double>(top);
-  return static_cast<double>(top) + std::log(weightSums(log_weight, top).first);
+  return static_cast<double>(top) + std::log(kernel::weightSums(log_weight, top).first);
 }
 
 double normalise(std::span<float> log_weight) {
@@ -83,7 +88,7 @@ double normalise(std::span<float> log_weight) {
 }
 
 double effectiveSize(std::span<const float> log_weight) {
-  const WeightSums sums = weightSums(log_weight, laneMax(log_weight));
+  const kernel::WeightSums sums = kernel::weightSums(log_weight, laneMax(log_weight));
   return sums.first * sums.first / sums.second;
 }
 

@@ -53,6 +53,14 @@ mrpt::bayes::CParticleFilter particleFilter(const estimation::MrptMclConfig& con
   return filter;
 }
 
+/// Rounding in MRPT's sums makes the covariance of a collapsed cloud slightly negative: the nearest that is
+/// none.
+Matrix<3, 3> semiDefinite(const Matrix<3, 3>& P) {
+  const Eigen::SelfAdjointEigenSolver<Matrix<3, 3>> eigen(0.5 * (P + P.transpose()));
+  const Matrix<3, 3> half = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return half * half.transpose();
+}
+
 mrpt::math::TPose2D asMrpt(const Pose2& pose) {
   return {pose.x, pose.y, pose.yaw};
 }
@@ -246,9 +254,8 @@ std::optional<Estimate> MrptMcl::estimateAt(Stamp stamp) const {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) P(row, column) = covariance(row, column);
   }
-  P = turn * P * turn.transpose();
-  return planarEstimate(stamp, filter_->T_map_filter * T_filter_body, 0.5 * (P + P.transpose()),
-                        filter_->config.body_height);
+  return planarEstimate(stamp, filter_->T_map_filter * T_filter_body,
+                        semiDefinite(turn * P * turn.transpose()), filter_->config.body_height);
 }
 
 Diagnostics MrptMcl::diagnostics() const {

@@ -3,81 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "pos/core/chi_square.hpp"
-#include "pos/core/error.hpp"
-#include "support/mcl_scene.hpp"
+#include "support/mcl_drive.hpp"
 
 namespace pos::estimation {
 namespace {
 
-using scene::noisyOdometry;
-using scene::rangeTo;
-
-const Pose2 kStart{5.0, 2.0, 0.3};
-const Pose2 kStep{0.4, 0.0, 0.05};
-constexpr double kPeriod = 0.5;
-
-MclConfig rangeConfig() {
-  MclConfig config;
-  config.start = {.mode = StartMode::Known, .pose = kStart, .position_sigma = 0.5, .yaw_sigma = 0.2};
-  config.range = {.sigma = 0.15, .outlier_probability = 0.05, .range_max = 40.0, .correlation_length = 0.0};
-  config.particles = {.min = 1500, .max = 5000};
-  return config;
-}
-
-struct Sim {
-  std::shared_ptr<const map::TunnelMap> map = scene::anchors();
-  Pose2 truth = kStart;
-  Stamp stamp = stampFromSeconds(100.0);
-  OdometryNoise noise;
-  double range_sigma = 0.15;
-  RandomStream random{1, 77};
-
-  explicit Sim(std::uint64_t seed) : random(seed, 77) {}
-
-  Measurement move() {
-    truth = truth * kStep;
-    stamp += durationFromSeconds(kPeriod);
-    return {stamp, "odometry", noisyOdometry(kStep, noise, kPeriod, random)};
-  }
-  Measurement range(std::size_t anchor, double error) const {
-    return {stamp, "uwb", rangeTo(map->anchors[anchor], truth, error)};
-  }
-  std::vector<Measurement> ranges() {
-    std::vector<Measurement> all;
-    for (std::size_t a = 0; a < map->anchors.size(); ++a)
-      all.push_back(range(a, random.normal(0.0, range_sigma)));
-    return all;
-  }
-};
-
-void feed(Mcl& mcl, const Measurement& measurement) {
-  EXPECT_NE(mcl.ingest(measurement).verdict, Verdict::Degenerate);
-}
-
-void drive(Mcl& mcl, Sim& sim, int steps) {
-  for (int k = 0; k < steps; ++k) {
-    feed(mcl, sim.move());
-    for (const Measurement& range : sim.ranges()) feed(mcl, range);
-  }
-}
-
-Pose2 meanOf(const Mcl& mcl, Stamp stamp) {
-  return mcl.estimateAt(stamp)->T_map_body.planar();
-}
+using namespace scene;
 
 double nees(const Mcl& mcl, const Sim& sim) {
   const Estimate estimate = *mcl.estimateAt(sim.stamp);
   const Vector<3> error = minus(estimate.T_map_body.planar(), sim.truth);
   return error.dot(estimate.planarCovariance().ldlt().solve(error));
-}
-
-Belief<Pose2> belief(const Pose2& mean, double position, double yaw) {
-  return {mean, Vector<3>(position * position, position * position, yaw * yaw).asDiagonal()};
 }
 
 }  // namespace
@@ -244,99 +183,6 @@ TEST(Mcl, TracksAConstantOffsetOfOneAnchor) {
   EXPECT_EQ(lines[4].name, "range_offset_m[2]");
   EXPECT_NEAR(lines[4].value, 0.5, 0.25);
   EXPECT_NEAR(lines[3].value, 0.0, 0.25);
-}
-
-TEST(Mcl, GatedMeasurementLeavesBeliefUntouched) {
-  Sim sim(2);
-  Mcl mcl(rangeConfig(), sim.map);
-  drive(mcl, sim, 10);
-  const Estimate before = *mcl.estimateAt(sim.stamp);
-  const IngestReport report = mcl.ingest(sim.range(0, -6.0));
-  EXPECT_EQ(report.verdict, Verdict::Gated);
-  EXPECT_NEAR(report.innovation, -6.0, 0.7);
-  EXPECT_GT(report.nis, 100.0);
-  const Estimate after = *mcl.estimateAt(sim.stamp);
-  EXPECT_EQ(before.T_map_body.translation, after.T_map_body.translation);
-  EXPECT_EQ(before.covariance, after.covariance);
-  Sim later = sim;
-  later.stamp += durationFromSeconds(0.1);
-  EXPECT_EQ(mcl.ingest(later.range(0, 9.0)).verdict, Verdict::Gated);
-  EXPECT_EQ(mcl.estimateAt(sim.stamp)->covariance, before.covariance);
-}
-
-TEST(Mcl, OrderOfRangesWithOneStampDoesNotMatter) {
-  Sim sim(9);
-  Mcl one(rangeConfig(), sim.map);
-  Mcl two(rangeConfig(), sim.map);
-  const Measurement move = sim.move();
-  feed(one, move);
-  feed(two, move);
-  const std::vector<Measurement> ranges = sim.ranges();
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    feed(one, ranges[i]);
-    feed(two, ranges[ranges.size() - 1 - i]);
-  }
-  EXPECT_LT(minus(meanOf(one, sim.stamp), meanOf(two, sim.stamp)).norm(), 1e-4);
-}
-
-TEST(Mcl, RangeRepeatedWithoutDrivingAddsLittle) {
-  Sim sim(9);
-  MclConfig config = rangeConfig();
-  config.range.correlation_length = 2.5;
-  const auto sigmaAfter = [&](int repeats) {
-    Mcl mcl(config, sim.map);
-    mcl.reset(sim.stamp, belief(sim.truth, 0.5, 0.01));
-    for (int k = 0; k < repeats; ++k) feed(mcl, sim.range(0, 0.0));
-    return std::sqrt(mcl.estimateAt(sim.stamp)->planarCovariance().topLeftCorner<2, 2>().determinant());
-  };
-  const double once = sigmaAfter(1);
-  EXPECT_LT(sigmaAfter(10), once);
-  EXPECT_GT(sigmaAfter(10), 0.85 * once);  // ten independent ones would give a third
-}
-
-TEST(Mcl, EveryVerdictHasItsCause) {
-  Sim sim(1);
-  MclConfig config = rangeConfig();
-  Mcl mcl(config, sim.map);
-  EXPECT_FALSE(mcl.estimateAt(sim.stamp));
-  EXPECT_EQ(mcl.ingest({sim.stamp, "imu", ImuSample{}}).verdict, Verdict::Unsupported);
-  EXPECT_EQ(mcl.ingest({sim.stamp, "laser", Scan2D{}}).verdict, Verdict::Unsupported);
-  EXPECT_FALSE(mcl.estimateAt(sim.stamp));
-  Measurement unknown = sim.range(0, 0.0);
-  std::get<BeaconRange>(unknown.reading).anchor = 99;
-  EXPECT_EQ(mcl.ingest(unknown).verdict, Verdict::Degenerate);
-  Measurement bad = sim.range(0, 0.0);
-  std::get<BeaconRange>(bad.reading).range = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(mcl.ingest(bad).verdict, Verdict::Degenerate);
-  EXPECT_EQ(mcl.ingest(sim.range(0, 0.0)).verdict, Verdict::Applied);
-  Measurement old = sim.range(1, 0.0);
-  old.stamp -= Duration{1};
-  EXPECT_EQ(mcl.ingest(old).verdict, Verdict::TooOld);
-  EXPECT_FALSE(mcl.estimateAt(old.stamp));
-  EXPECT_EQ(mcl.estimateAt(sim.stamp + durationFromSeconds(1.0))->covariance,
-            mcl.estimateAt(sim.stamp)->covariance);
-}
-
-TEST(Mcl, RefusesAMapThatLacksWhatTheConfigurationUses) {
-  const auto empty = std::make_shared<const map::TunnelMap>();
-  EXPECT_THROW(Mcl(rangeConfig(), empty), ConfigError);
-  MclConfig scans = rangeConfig();
-  scans.use_ranges = false;
-  EXPECT_THROW(Mcl(scans, scene::anchors()), ConfigError);  // neither kind
-  scans.use_scans = true;
-  EXPECT_THROW(Mcl(scans, scene::anchors()), ConfigError);  // no grid
-  MclConfig numbers = rangeConfig();
-  numbers.range.sigma = 0.0;
-  EXPECT_THROW(Mcl(numbers, scene::anchors()), ConfigError);
-}
-
-TEST(OdometrySigma, VariancesOfTwoHalvesAddUpToTheWhole) {
-  const OdometryNoise noise;
-  const Vector<3> whole = incrementSigma(noise, {1.2, 0.0, 0.4}, 2.0);
-  const Vector<3> half = incrementSigma(noise, {0.6, 0.0, 0.2}, 1.0);
-  EXPECT_TRUE(whole.cwiseAbs2().isApprox(2.0 * half.cwiseAbs2(), 1e-12));
-  EXPECT_NEAR(whole[0], std::sqrt(0.03 * 0.03 * 1.2 + 0.001 * 0.001 * 2.0), 1e-12);
-  EXPECT_EQ(incrementSigma(noise, {}, 0.0), (Vector<3>::Zero()));
 }
 
 }  // namespace pos::estimation

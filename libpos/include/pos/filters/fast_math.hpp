@@ -15,13 +15,9 @@ inline float fastExp(float x) {
   const float shifted = clamped * 1.44269504F + kRounder;
   const float n = shifted - kRounder;
   const float r = (clamped - n * 0.693359375F) + n * 2.12194440e-4F;  // ln 2 in two parts
-  float p = 1.0F / 720.0F;
-  p = p * r + 1.0F / 120.0F;
-  p = p * r + 1.0F / 24.0F;
-  p = p * r + 1.0F / 6.0F;
-  p = p * r + 0.5F;
-  p = p * r + 1.0F;
-  p = p * r + 1.0F;
+  const float r2 = r * r;  // Taylor series in pairs (Estrin): a shorter chain than Horner's
+  const float p = (1.0F + r) + r2 * ((0.5F + r * (1.0F / 6.0F)) +
+                                     r2 * ((1.0F / 24.0F + r * (1.0F / 120.0F)) + r2 * (1.0F / 720.0F)));
   const std::int32_t exponent = std::bit_cast<std::int32_t>(shifted) - std::bit_cast<std::int32_t>(kRounder);
   return p * std::bit_cast<float>((exponent + 127) << 23);
 }
