@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -137,6 +138,20 @@ double variance(const CsvReader& csv, std::size_t column, double unit) {
 
 }  // namespace
 
+namespace {
+
+/// TUM has no way to say "not measured": a file in which every orientation is the identity holds none, and one in
+/// which every height is exactly zero is a plan.
+Truth withKnownParts(Truth truth) {
+  const auto turned = [](const TruthPose& pose) { return !pose.T_map_body.rotation.vec().isZero(0.0); };
+  const auto raised = [](const TruthPose& pose) { return pose.T_map_body.translation.z() != 0.0; };
+  truth.has_yaw = std::any_of(truth.poses.begin(), truth.poses.end(), turned);
+  truth.has_z = std::any_of(truth.poses.begin(), truth.poses.end(), raised);
+  return truth;
+}
+
+}  // namespace
+
 Truth readTumTruth(const std::filesystem::path& path) {
   NumberRows rows(path, NumberRows::Separator::Blank);
   Truth truth;
@@ -147,7 +162,7 @@ Truth readTumTruth(const std::filesystem::path& path) {
     truth.poses.push_back({stamp, poseOf(rows, 1, QuaternionOrder::XyzW)});
   }
   rows.requirePoses(truth);
-  return truth;
+  return withKnownParts(std::move(truth));
 }
 
 Truth readEurocTruth(const std::filesystem::path& path) {

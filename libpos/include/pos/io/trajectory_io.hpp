@@ -18,7 +18,8 @@
 
 namespace pos::io {
 
-/// `t x y z qx qy qz qw`, t in seconds.
+/// `t x y z qx qy qz qw`, t in seconds. A file whose every orientation is the identity gives a truth without heading,
+/// one whose every height is exactly zero a truth without height.
 Truth readTumTruth(const std::filesystem::path& path);
 /// `t, x, y, z, qw, qx, qy, qz, ...`, t in nanoseconds; further columns are not used.
 Truth readEurocTruth(const std::filesystem::path& path);
