@@ -214,13 +214,7 @@ IngestReport RangeOdometry::correct(Stamp stamp, const BeaconRange& range, const
   const double unknown =
       driven() ? square(config_.acceleration_density) * std::pow(std::abs(geometry.age), 3) / 3.0 : 0.0;
   const double variance = square(config_.range_sigma) + square(anchor.survey_sigma) + unknown;
-  const RangeHypothesis* best = &bank_.best();
-  RangeCorrection told;
-  for (RangeHypothesis& h : bank_.hypotheses()) {
-    const RangeCorrection correction = correctRange(h, layout_, geometry, range.range, variance, gate_);
-    if (&h == best) told = correction;
-  }
-  bank_.settle();
+  const RangeCorrection told = bank_.correct(layout_, {geometry, range.range, variance}, gate_);
   IngestReport report = reportOf(told);
   if (watch_.opens(stamp, range.anchor, told.verdict)) report.event = openGate(stamp);
   return report;

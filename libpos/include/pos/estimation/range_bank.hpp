@@ -17,12 +17,12 @@ struct RangeHypothesis {
 /// What a range did to the best hypothesis.
 using RangeCorrection = filters::Correction<1>;
 
-/// Corrects one hypothesis by one range and adds the range's likelihood to its weight. The likelihood is a
-/// Gaussian plus a share of outliers, so that one bad range cannot kill a good hypothesis. `variance` in m^2,
-/// gate on nis.
-RangeCorrection correctRange(RangeHypothesis& hypothesis, const RangeLayout& layout,
-                             const RangeGeometry& geometry, double range, double variance,
-                             filters::Gate gate);
+/// One range as a bank takes it.
+struct RangeReading {
+  RangeGeometry geometry;
+  double range = 0.0;     ///< m
+  double variance = 0.0;  ///< m^2
+};
 
 /// A bank of hypotheses; never empty once started.
 class RangeBank {
@@ -35,17 +35,23 @@ class RangeBank {
   const RangeHypothesis& best() const { return hypotheses_[best_]; }
   std::vector<RangeHypothesis>& hypotheses() { return hypotheses_; }
   const std::vector<RangeHypothesis>& hypotheses() const { return hypotheses_; }
-
-  /// Normalises the weights, drops hypotheses that have lost (weight below e^-14 of the best) and joins those
-  /// that have become one, then chooses the best. Call after every round of corrections.
-  void settle();
-
   /// Weights that sum to one, in order.
   std::vector<double> weights() const;
 
+  /// Corrects every hypothesis by one range and says what it did to the best. The likelihood that enters the
+  /// weights is a Gaussian plus a share of outliers, so that one bad range cannot kill a good hypothesis. A
+  /// range that passes the gate but moves a hypothesis by a good part of its uncertainty forks it into one
+  /// that believes the range and one that does not; later ranges decide (a Gaussian sum, Alspach and Sorenson
+  /// 1972).
+  RangeCorrection correct(const RangeLayout& layout, const RangeReading& reading, filters::Gate gate);
+
  private:
+  /// Normalises the weights, drops hypotheses that have lost (weight below e^-14 of the best) and joins those
+  /// that have become one, then chooses the best.
+  void settle();
   void joinTwins();
   void chooseBest();
+
   std::vector<RangeHypothesis> hypotheses_;
   std::size_t best_ = 0;
 };
