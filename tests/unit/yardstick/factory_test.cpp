@@ -16,7 +16,7 @@ TEST(Factory, MakesEveryTypeAndNamesIt) {
       {estimation::MrptMclConfig{}, "mrpt_mcl"}};
   for (const auto& [config, name] : types) {
     EXPECT_EQ(estimation::typeName(config), name);
-    EXPECT_NE(makeEstimator(config, map), nullptr);
+    EXPECT_NE(makeAnyEstimator(config, map), nullptr);
   }
 }
 
@@ -27,9 +27,9 @@ TEST(Factory, WithoutTheYardstickMrptMclIsAFaultOfTheCaller) {
 
 TEST(Factory, AMapThatLacksWhatTheTypeNeedsIsRefused) {
   const auto empty = std::make_shared<const map::TunnelMap>();
-  EXPECT_THROW((void)makeEstimator(estimation::RangeOdometryConfig{}, empty), ConfigError);
-  EXPECT_THROW((void)makeEstimator(estimation::MclConfig{}, empty), ConfigError);
-  EXPECT_THROW((void)makeEstimator(estimation::MrptMclConfig{}, empty), ConfigError);
+  EXPECT_THROW((void)makeAnyEstimator(estimation::RangeOdometryConfig{}, empty), ConfigError);
+  EXPECT_THROW((void)makeAnyEstimator(estimation::MclConfig{}, empty), ConfigError);
+  EXPECT_THROW((void)makeAnyEstimator(estimation::MrptMclConfig{}, empty), ConfigError);
 }
 
 }  // namespace pos::yardstick
