@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::uint64_t kProgressEvery = 1024;
 
-/// What the configuration says of one sensor, or the defaults.
-io::SensorConfig sensorConfig(const io::RunConfig& config, const std::string& sensor) {
+/// What the configuration says of one sensor; null where it says nothing.
+const io::SensorConfig* sensorConfig(const io::RunConfig& config, const std::string& sensor) {
   const auto found = std::find_if(config.sensors.begin(), config.sensors.end(),
                                   [&](const io::SensorConfig& s) { return s.sensor == sensor; });
-  return found != config.sensors.end() ? *found : io::SensorConfig{.sensor = sensor};
+  return found != config.sensors.end() ? &*found : nullptr;
 }
 
 /// A sensor whose stamps are moved back arrives that much late: the sequencer has to wait for it.
@@ -67,10 +67,10 @@ class Pass {
   }
 
   void push(Measurement measurement) {
-    const io::SensorConfig sensor = sensorConfig(inputs_.config, measurement.sensor);
-    measurement.stamp -= durationFromSeconds(sensor.latency);
     if (std::holds_alternative<PoseTruth>(measurement.reading)) return;  // reference: for the evaluation only
-    if (!sensor.use) {
+    const io::SensorConfig* sensor = sensorConfig(inputs_.config, measurement.sensor);
+    if (sensor != nullptr) measurement.stamp -= durationFromSeconds(sensor->latency);
+    if (sensor != nullptr && !sensor->use) {
       for (Recorder& recorder : recorders_) recorder.withhold(measurement, "switched off by sensors.use");
       return;
     }
@@ -79,13 +79,17 @@ class Pass {
 
   void drain() {
     while (const auto measurement = sequencer_.pop()) {
-      if (epoch_ && measurement->stamp != *epoch_) endEpoch();
-      if (!epoch_) result_.first = epoch_started_ ? result_.first : measurement->stamp;
-      epoch_started_ = true;
-      epoch_ = measurement->stamp;
-      result_.last = std::max(result_.last, measurement->stamp);
+      if (epoch_ != measurement->stamp) beginEpoch(measurement->stamp);
       for (Recorder& recorder : recorders_) take(recorder, *measurement);
     }
+  }
+
+  void beginEpoch(Stamp stamp) {
+    endEpoch();
+    if (!started_) result_.first = result_.last = stamp;
+    started_ = true;
+    epoch_ = stamp;
+    result_.last = std::max(result_.last, stamp);
   }
 
   void take(Recorder& recorder, const Measurement& measurement) {
@@ -117,7 +121,7 @@ class Pass {
   std::vector<Recorder> recorders_;
   std::optional<io::EventsCsvWriter> events_;
   std::optional<Stamp> epoch_;
-  bool epoch_started_ = false;
+  bool started_ = false;
   Replayed result_;
 };
 
