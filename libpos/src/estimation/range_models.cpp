@@ -127,26 +127,26 @@ void predictPose(Belief<RangeState>& belief, const filters::Step<RangeState>& st
   constexpr int kPose = 3;
   const TangentMatrix<State>& P = belief.covariance;
   const auto n = P.rows();
-  // C = P F', its three columns of the pose: sums of few columns of P, since F is sparse
-  Eigen::Matrix<double, Eigen::Dynamic, kPose, 0, State::kMaxDof, kPose> C(n, kPose);
-  C.setZero();
-  Matrix<kPose, kPose> C_pose = Matrix<kPose, kPose>::Zero();  // F P F', its block of the pose
+  // C = P F', its three columns of the pose. F is the identity but for few elements right of the diagonal.
+  Eigen::Matrix<double, Eigen::Dynamic, kPose, 0, State::kMaxDof, kPose> C = P.leftCols<kPose>();
   for (int row = 0; row < kPose; ++row) {
-    for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = row + 1; k < n; ++k) {
       if (step.F(row, k) != 0.0) C.col(row) += step.F(row, k) * P.col(k);
     }
   }
+  Matrix<kPose, kPose> C_pose = C.topRows<kPose>();  // F P F', its block of the pose
   for (int row = 0; row < kPose; ++row) {
-    for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index k = row + 1; k < n; ++k) {
       if (step.F(row, k) != 0.0) C_pose.row(row) += step.F(row, k) * C.row(k);
     }
   }
-  filters::symmetrise(C_pose);
   belief.mean = step.next;
   belief.covariance.leftCols<kPose>() = C;
   belief.covariance.topRows<kPose>() = C.transpose();
-  belief.covariance.topLeftCorner<kPose, kPose>() = C_pose;
+  auto pose = belief.covariance.topLeftCorner<kPose, kPose>();
+  pose = C_pose;
   belief.covariance += step.Qd;
+  filters::symmetrise(pose);
 }
 
 RangePrediction predictedRange(const State& x, const RangeLayout& layout,

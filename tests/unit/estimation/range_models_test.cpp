@@ -65,6 +65,7 @@ TEST(RangeModels, PredictPoseAgreesWithTheDenseKernel) {
       TangentMatrix<RangeState> root(layout.size(), layout.size());
       for (double& value : root.reshaped()) value = random.normal(0.0, 0.5);
       Belief<RangeState> dense{x, root * root.transpose()};
+      filters::symmetrise(dense.covariance);
       Belief<RangeState> sparse = dense;
       const auto step = motion == RangeOdometryConfig::Motion::Odometry
                             ? OdometryMotion{&layout, &config}.step(x, {0.4, -0.1, 0.2}, 0.3)
