@@ -1,6 +1,7 @@
 /// performance_table <json files of the benchmark programs>: prints the machine and the tables as Markdown.
 #include <fstream>
 #include <iostream>
+#include <iterator>
 
 #include "performance_table.hpp"
 
@@ -9,7 +10,7 @@ int main(int argc, char** argv) {
     std::vector<nlohmann::json> runs;
     for (int i = 1; i < argc; ++i) {
       std::ifstream file(argv[i]);
-      runs.push_back(nlohmann::json::parse(file));
+      runs.push_back(pos::bench::parsed({std::istreambuf_iterator<char>(file), {}}));
     }
     const nlohmann::json run = pos::bench::joined(runs);
     std::cout << "Machine: " << pos::bench::machineLine(run) << ".\n\n"

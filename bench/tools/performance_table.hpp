@@ -35,6 +35,10 @@ struct Topic {
 /// What is compared with what in this project.
 std::vector<Topic> topics();
 
+/// What a benchmark program wrote. It writes NaN and Infinity, which JSON does not have, for statistics that
+/// do not exist (the coefficient of variation of zeros); they become null.
+nlohmann::json parsed(const std::string& text);
+
 /// The runs joined: their benchmarks in order, the context of the first. Throws std::invalid_argument when
 /// one holds no benchmarks.
 nlohmann::json joined(const std::vector<nlohmann::json>& runs);

@@ -64,6 +64,13 @@ TEST(PerformanceTable, RunsOfSeveralProgramsAreJoinedInOrder) {
   EXPECT_THROW(joined({nlohmann::json::object()}), std::invalid_argument);
 }
 
+TEST(PerformanceTable, NumbersThatDoNotExistBecomeNull) {
+  const nlohmann::json run = parsed(R"({"a": NaN, "b": -Infinity, "c": -2.5})");
+  EXPECT_TRUE(run.at("a").is_null());
+  EXPECT_TRUE(run.at("b").is_null());
+  EXPECT_EQ(run.at("c"), -2.5);
+}
+
 TEST(PerformanceTable, MissingBenchmarkOrCounterIsNamed) {
   const auto messageOf = [](const Topic& topic) -> std::string {
     try {
