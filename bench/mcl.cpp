@@ -1,7 +1,6 @@
 /// Our particle filter's hot loops beside MRPT's, on the same made-up scene: 20 000 particles about a pose in
 /// a walled room, four anchors, a scan of 152 beams. Compare within one run; the counters are nanoseconds per
 /// particle and range, beam or motion.
-#include <benchmark/benchmark.h>
 #include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/maps/CBeaconMap.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -13,7 +12,6 @@
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
 #include <cmath>
-#include <ctime>
 #include <vector>
 
 #include "pos/core/random.hpp"
@@ -22,6 +20,7 @@
 #include "pos/estimation/scan_points.hpp"
 #include "pos/filters/fast_math.hpp"
 #include "pos/filters/propagation.hpp"
+#include "support.hpp"
 
 namespace {
 
@@ -86,24 +85,12 @@ struct Cloud {
   }
 };
 
-/// Processor time from its making, as a counter of nanoseconds for each of `items` per iteration.
-class PerItem {
- public:
-  void report(benchmark::State& state, const char* name, double items) const {
-    const double spent = static_cast<double>(std::clock() - start_) / static_cast<double>(CLOCKS_PER_SEC);
-    state.counters[name] = 1e9 * spent / (items * static_cast<double>(state.iterations()));
-  }
-
- private:
-  std::clock_t start_ = std::clock();
-};
-
 void ranges_ours(benchmark::State& state) {
   Cloud cloud;
   pos::estimation::RangeWeights weights;
   const std::vector<float> level = cloud.set.log_weight;
   const pos::Pose2 truth = kPose;
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     cloud.set.log_weight = level;
     for (const Eigen::Vector3d& anchor : kAnchors) {
@@ -141,7 +128,7 @@ void ranges_mrpt(benchmark::State& state) {
     observation.sensedData.push_back(one);
   }
   std::vector<double> log_weight(kParticles);
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     for (std::size_t i = 0; i < kParticles; ++i) {
       const pos::Pose2 p = cloud.set.pose(i);
@@ -160,7 +147,7 @@ void scan_ours(benchmark::State& state) {
   pos::estimation::ScanWeights weights(room(), model);
   const std::vector<float> level = cloud.set.log_weight;
   const pos::lidar::BeamPoints points = beamPoints(scan(), model);
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     cloud.set.log_weight = level;
     benchmark::DoNotOptimize(weights.evaluate(cloud.set, {cloud.cosine, cloud.sine}, points, 1.0));
@@ -192,7 +179,7 @@ void scan_mrpt(benchmark::State& state) {
     observation.setScanRangeValidity(i, true);
   }
   std::vector<double> log_weight(kParticles);
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     for (std::size_t i = 0; i < kParticles; ++i) {
       const pos::Pose2 p = cloud.set.pose(i);
@@ -209,7 +196,7 @@ void predict_ours(benchmark::State& state) {
   Cloud cloud;
   const pos::filters::NoisyStep motion{{0.01, 0.0, 0.001}, {0.003, 0.001, 0.001}};
   std::uint64_t step = 0;
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) propagate(cloud.set, motion, 1, step++);
   per_item.report(state, "ns_per_particle", static_cast<double>(kParticles));
 }
@@ -234,7 +221,7 @@ void predict_mrpt(benchmark::State& state) {
   mrpt::obs::CActionCollection action;
   action.insert(movement);
   mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) filter.prediction_and_update_pfStandardProposal(&action, nullptr, options);
   per_item.report(state, "ns_per_particle", static_cast<double>(kParticles));
 }
@@ -245,7 +232,7 @@ void resample_ours(benchmark::State& state) {
   pos::filters::ParticleSet set = cloud.set;
   pos::filters::SystematicResampler resampler;
   pos::RandomStream random(5, 5);
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     set.log_weight = cloud.set.log_weight;
     resampler.resample(set, kParticles, random);
@@ -259,7 +246,7 @@ void resample_mrpt(benchmark::State& state) {
   mrpt::slam::CMonteCarloLocalization2D filter(kParticles);
   mrpt::bayes::CParticleFilter::TParticleFilterOptions options;
   options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
-  const PerItem per_item;
+  const pos::bench::PerItem per_item;
   for (auto _ : state) {
     for (std::size_t i = 0; i < kParticles; ++i) filter.m_particles[i].log_w = cloud.set.log_weight[i];
     filter.performResampling(options);

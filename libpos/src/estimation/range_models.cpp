@@ -13,9 +13,9 @@ double square(double value) {
   return value * value;
 }
 
-/// d R(yaw) / d yaw = R(yaw + pi/2).
-Eigen::Matrix2d rotationDerivative(double yaw) {
-  return rotation2(yaw + 0.5 * kPi);
+/// d (R(yaw) v) / d yaw = R(90 deg) R(yaw) v, from R(yaw) v.
+Eigen::Vector2d derivativeOfTurned(const Eigen::Vector2d& Rv) {
+  return {-Rv.y(), Rv.x()};
 }
 
 filters::Step<State> standingStill(const State& x) {
@@ -34,10 +34,8 @@ void addCalibrationWalk(TangentMatrix<State>& Qd, const RangeLayout& layout,
   add(Term::RangeScale, config.range_scale);
   add(Term::RangeOffset, config.range_offset);
   add(Term::Latency, config.latency);
-  for (const AnchorId anchor : layout.anchors()) {
-    const int row = *layout.anchorRow(anchor);
-    Qd(row, row) += square(config.anchor_offset.walk_per_sqrt_s) * dt;
-  }
+  const auto anchors = static_cast<Eigen::Index>(layout.anchors().size());
+  Qd.diagonal().tail(anchors).array() += square(config.anchor_offset.walk_per_sqrt_s) * dt;
 }
 
 /// Where the body is `age` seconds after the state, and how that depends on the state.
@@ -58,7 +56,7 @@ Carried carried(const State& x, const RangeLayout& layout, const BodyVelocity& o
   const double yaw = x.pose().yaw;
   const Eigen::Vector2d v = rotation2(yaw) * odometry.linear;
   return {x.position() + age * v, yaw + age * odometry.yaw_rate, v, odometry.yaw_rate,
-          age * (rotationDerivative(yaw) * odometry.linear)};
+          age * derivativeOfTurned(v)};
 }
 
 }  // namespace
@@ -82,8 +80,9 @@ filters::Step<State> OdometryMotion::step(const State& x, const Pose2& increment
   // moved.
   const double direction = x.pose().yaw - 0.5 * bias * dt;
   const Eigen::Matrix2d R = rotation2(direction);
-  const Eigen::Vector2d moved_map = scale * (R * increment.translation());
-  const Eigen::Vector2d dmoved_dyaw = scale * (rotationDerivative(direction) * increment.translation());
+  const Eigen::Vector2d unscaled_map = R * increment.translation();
+  const Eigen::Vector2d moved_map = scale * unscaled_map;
+  const Eigen::Vector2d dmoved_dyaw = derivativeOfTurned(moved_map);
   step.next.values.head<2>() += moved_map;
   step.next.values[2] = wrapAngle(x.pose().yaw + increment.yaw - bias * dt);
 
@@ -93,7 +92,7 @@ filters::Step<State> OdometryMotion::step(const State& x, const Pose2& increment
     step.F(2, *row) = -dt;
   }
   if (const auto row = layout->row(Term::WheelScale)) {
-    step.F.block<2, 1>(0, *row) = R * increment.translation();
+    step.F.block<2, 1>(0, *row) = unscaled_map;
   }
   Matrix<3, 3> R_pose = Matrix<3, 3>::Identity();
   R_pose.topLeftCorner<2, 2>() = R;
@@ -124,14 +123,40 @@ filters::Step<State> ConstantVelocityMotion::step(const State& x, NoInput, doubl
   return step;
 }
 
+void predictPose(Belief<RangeState>& belief, const filters::Step<RangeState>& step) {
+  constexpr int kPose = 3;
+  const TangentMatrix<State>& P = belief.covariance;
+  const auto n = P.rows();
+  // C = P F', its three columns of the pose. F is the identity but for few elements right of the diagonal.
+  Eigen::Matrix<double, Eigen::Dynamic, kPose, 0, State::kMaxDof, kPose> C = P.leftCols<kPose>();
+  for (int row = 0; row < kPose; ++row) {
+    for (Eigen::Index k = row + 1; k < n; ++k) {
+      if (step.F(row, k) != 0.0) C.col(row) += step.F(row, k) * P.col(k);
+    }
+  }
+  Matrix<kPose, kPose> C_pose = C.topRows<kPose>();  // F P F', its block of the pose
+  for (int row = 0; row < kPose; ++row) {
+    for (Eigen::Index k = row + 1; k < n; ++k) {
+      if (step.F(row, k) != 0.0) C_pose.row(row) += step.F(row, k) * C.row(k);
+    }
+  }
+  belief.mean = step.next;
+  belief.covariance.leftCols<kPose>() = C;
+  belief.covariance.topRows<kPose>() = C.transpose();
+  auto pose = belief.covariance.topLeftCorner<kPose, kPose>();
+  pose = C_pose;
+  belief.covariance += step.Qd;
+  filters::symmetrise(pose);
+}
+
 RangePrediction predictedRange(const State& x, const RangeLayout& layout,
                                const TangentMatrix<State>& covariance, const RangeGeometry& geometry) {
   const double age = geometry.age - x.value(layout, Term::Latency);
   const Carried body = carried(x, layout, geometry.odometry_velocity, age);
-  const Eigen::Vector2d lever = geometry.tag_body.head<2>();
-  const Eigen::Vector2d dlever_dyaw = rotationDerivative(body.yaw) * lever;
+  const Eigen::Vector2d lever_map = rotation2(body.yaw) * geometry.tag_body.head<2>();
+  const Eigen::Vector2d dlever_dyaw = derivativeOfTurned(lever_map);
   Eigen::Vector3d between;
-  between << body.position + rotation2(body.yaw) * lever, geometry.body_height + geometry.tag_body.z();
+  between << body.position + lever_map, geometry.body_height + geometry.tag_body.z();
   between -= geometry.anchor_map;
 
   RangePrediction result;

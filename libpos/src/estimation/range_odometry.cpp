@@ -121,7 +121,9 @@ IngestReport RangeOdometry::take(Stamp stamp, const OdometryIncrement& odometry)
   if (since_state > dt) carryTo(stamp - durationFromSeconds(dt));
   if (start_) start_->move(odometry.increment);
   const OdometryMotion motion{&layout_, &config_};
-  for (RangeHypothesis& h : bank_.hypotheses()) filters::predict(h.belief, motion, odometry.increment, dt);
+  for (RangeHypothesis& h : bank_.hypotheses()) {
+    predictPose(h.belief, motion.step(h.belief.mean, odometry.increment, dt));
+  }
   if (dt > 0.0) {
     odometry_velocity_ = {odometry.increment.translation() / dt, odometry.increment.yaw / dt};
     odometry_interval_ = dt;
@@ -144,14 +146,13 @@ BodyVelocity RangeOdometry::coasting(double age) const {
 /// The belief `dt` seconds later without any measurement in between.
 Belief<RangeState> RangeOdometry::carried(Belief<RangeState> belief, double dt) const {
   if (!driven()) {
-    filters::predict(belief, ConstantVelocityMotion{&layout_, &config_}, ConstantVelocityMotion::NoInput{},
-                     dt);
+    predictPose(belief, ConstantVelocityMotion{&layout_, &config_}.step(belief.mean, {}, dt));
     return belief;
   }
   const double coast = std::min(dt, kCoastIntervals * odometry_interval_);
   const Eigen::Vector2d moved = coast * odometry_velocity_.linear;
-  filters::predict(belief, OdometryMotion{&layout_, &config_},
-                   Pose2{moved.x(), moved.y(), coast * odometry_velocity_.yaw_rate}, dt);
+  const Pose2 increment{moved.x(), moved.y(), coast * odometry_velocity_.yaw_rate};
+  predictPose(belief, OdometryMotion{&layout_, &config_}.step(belief.mean, increment, dt));
   const double cubed = dt * dt * dt / 3.0;  // white acceleration integrated twice
   belief.covariance.diagonal().head<2>().array() += square(config_.acceleration_density) * cubed;
   belief.covariance(2, 2) += square(config_.yaw_acceleration_density) * cubed;
@@ -240,16 +241,17 @@ std::optional<Estimate> RangeOdometry::estimateAt(Stamp stamp) const {
   const auto poseAt = [&](const RangeHypothesis& h) {
     return poseOf(dt > 0.0 ? carried(h.belief, dt) : h.belief);
   };
-  const Pose2 mean = poseAt(bank_.best()).mean;
+  const Belief<Pose2> best = poseAt(bank_.best());
+  if (bank_.size() == 1) return planarEstimate(stamp, best.mean, best.covariance, config_.body_height);
   // While several hypotheses live, the best one's pose with the spread of all of them about it.
   Matrix<3, 3> covariance = Matrix<3, 3>::Zero();
   const std::vector<double> weights = bank_.weights();
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Belief<Pose2> pose = poseAt(bank_.hypotheses()[i]);
-    const Vector<3> apart = minus(pose.mean, mean);
+    const Vector<3> apart = minus(pose.mean, best.mean);
     covariance += weights[i] * (pose.covariance + apart * apart.transpose());
   }
-  return planarEstimate(stamp, mean, covariance, config_.body_height);
+  return planarEstimate(stamp, best.mean, covariance, config_.body_height);
 }
 
 Diagnostics RangeOdometry::diagnostics() const {

@@ -45,11 +45,6 @@ RangeLayout::RangeLayout(const RangeOdometryConfig& config, const std::vector<An
   }
 }
 
-std::optional<int> RangeLayout::row(StateTerm term) const {
-  const int row = rows_[at(term)];
-  return row < 0 ? std::nullopt : std::optional<int>(row);
-}
-
 std::optional<int> RangeLayout::anchorRow(AnchorId anchor) const {
   const auto found = std::lower_bound(anchors_.begin(), anchors_.end(), anchor);
   if (found == anchors_.end() || *found != anchor) return std::nullopt;

@@ -39,7 +39,7 @@ std::optional<Measurement> RawlogIntake::pop() {
   if (head_ == queue_.size()) return std::nullopt;
   Queued& queued = queue_[head_++];
   frame_ = queued.frame;
-  Measurement result = std::move(queued.measurement);
+  std::optional<Measurement> result(std::move(queued.measurement));
   if (head_ == queue_.size()) {
     queue_.clear();
     head_ = 0;

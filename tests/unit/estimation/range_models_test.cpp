@@ -55,6 +55,30 @@ const auto kMotions = {RangeOdometryConfig::Motion::Odometry, RangeOdometryConfi
 
 }  // namespace
 
+TEST(RangeModels, PredictPoseAgreesWithTheDenseKernel) {
+  RandomStream random(13, 0);
+  for (const auto motion : kMotions) {
+    auto config = everythingFreed(motion);
+    config.anchor_offset.walk_per_sqrt_s = 0.02;
+    const RangeLayout layout(config, {7, 9});
+    for (const RangeState& x : states(layout)) {
+      TangentMatrix<RangeState> root(layout.size(), layout.size());
+      for (double& value : root.reshaped()) value = random.normal(0.0, 0.5);
+      Belief<RangeState> dense{x, root * root.transpose()};
+      filters::symmetrise(dense.covariance);
+      Belief<RangeState> sparse = dense;
+      const auto step = motion == RangeOdometryConfig::Motion::Odometry
+                            ? OdometryMotion{&layout, &config}.step(x, {0.4, -0.1, 0.2}, 0.3)
+                            : ConstantVelocityMotion{&layout, &config}.step(x, {}, 0.3);
+      filters::predict(dense, step);
+      predictPose(sparse, step);
+      EXPECT_EQ(sparse.mean.values, dense.mean.values);
+      EXPECT_TRUE(sparse.covariance.isApprox(dense.covariance, 1e-13));
+      EXPECT_EQ(sparse.covariance, sparse.covariance.transpose());
+    }
+  }
+}
+
 TEST(RangeModels, OdometryJacobianMatchesNumericDifferences) {
   const auto config = everythingFreed(RangeOdometryConfig::Motion::Odometry);
   const RangeLayout layout(config, {7, 9});

@@ -29,6 +29,10 @@ struct ConstantVelocityMotion {
   filters::Step<RangeState> step(const RangeState& x, NoInput, double dt) const;
 };
 
+/// filters::predict for steps of these two motions, whose F is the identity but for elements right of the
+/// diagonal in the rows of the pose: P <- F P F' + Qd costs O(n^2) instead of O(n^3) (bench/range_odometry).
+void predictPose(Belief<RangeState>& belief, const filters::Step<RangeState>& step);
+
 /// Velocity of the body where odometry gives it: forward and left in m/s (body axes), yaw rate in rad/s.
 struct BodyVelocity {
   Eigen::Vector2d linear = Eigen::Vector2d::Zero();

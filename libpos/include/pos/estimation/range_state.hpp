@@ -36,7 +36,10 @@ class RangeLayout {
 
   int size() const { return size_; }
   /// Row of a freed term; nothing for a held one.
-  std::optional<int> row(StateTerm term) const;
+  std::optional<int> row(StateTerm term) const {
+    const int row = rows_[static_cast<std::size_t>(term)];
+    return row < 0 ? std::nullopt : std::optional<int>(row);
+  }
   /// Row of this anchor's offset; nothing where offsets are not states or the anchor is unknown.
   std::optional<int> anchorRow(AnchorId anchor) const;
   double held(StateTerm term) const { return held_[static_cast<std::size_t>(term)]; }

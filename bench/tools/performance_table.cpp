@@ -1,0 +1,145 @@
+#include "performance_table.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <regex>
+#include <stdexcept>
+
+namespace pos::bench {
+namespace {
+
+using nlohmann::json;
+
+/// Three significant digits, without an exponent.
+std::string shown(double value) {
+  const double size = std::abs(value);
+  const int decimals = size >= 100.0 ? 0 : size >= 10.0 ? 1 : 2;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+/// The benchmark's name without what its repetition added: "read_ours/iterations:1" is "read_ours".
+std::string plainName(const json& entry) {
+  const std::string name = entry.at("run_name");
+  return name.substr(0, std::min(name.find("/iterations:"), name.find("/repeats:")));
+}
+
+double aggregate(const json& run, const std::string& name, const std::string& benchmark,
+                 const std::string& counter) {
+  for (const json& entry : run.at("benchmarks")) {
+    if (entry.value("aggregate_name", "") != name || plainName(entry) != benchmark) continue;
+    if (!entry.contains(counter))
+      throw std::invalid_argument("benchmark " + benchmark + " has no counter " + counter);
+    return entry.at(counter);
+  }
+  throw std::invalid_argument("no " + name + " of benchmark " + benchmark + ": run it with repetitions");
+}
+
+std::string row(const json& run, const Comparison& c) {
+  const double ours = aggregate(run, "median", c.ours, c.counter);
+  const double yardstick = aggregate(run, "median", c.yardstick, c.counter);
+  const double factor = yardstick / ours;
+  std::string line = "| " + c.what + " | " + shown(ours) + ' ' + c.unit + " | " + shown(yardstick) + ' ' +
+                     c.unit + " | " + shown(factor) + " | ";
+  if (c.least_factor <= 0.0) return line + "- |\n";
+  return line + ">= " + shown(c.least_factor) + (factor >= c.least_factor ? ", met" : ", missed") + " |\n";
+}
+
+std::string table(const json& run, const Topic& topic) {
+  std::string text = "### " + topic.title + "\n\n";
+  if (!topic.comparisons.empty()) {
+    text += "| | ours | " + topic.yardstick + " | times faster | target |\n| --- | --- | --- | --- | --- |\n";
+    for (const Comparison& c : topic.comparisons) text += row(run, c);
+  }
+  if (topic.figures.empty()) return text;
+  text += "\n| | |\n| --- | --- |\n";
+  for (const Figure& f : topic.figures) {
+    text +=
+        "| " + f.what + " | " + shown(aggregate(run, "max", f.benchmark, f.counter)) + ' ' + f.unit + " |\n";
+  }
+  return text;
+}
+
+Topic particleFilter() {
+  return {.title = "Particle filter",
+          .yardstick = "MRPT",
+          .comparisons =
+              {{"range, per particle and range", "ranges_ours", "ranges_mrpt", "ns_per_particle_range", "ns",
+                10.0},
+               {"scan, per particle and beam", "scan_ours", "scan_mrpt", "ns_per_particle_beam", "ns", 10.0},
+               {"motion, per particle", "predict_ours", "predict_mrpt", "ns_per_particle", "ns", 0.0},
+               {"resampling, per particle", "resample_ours", "resample_mrpt", "ns_per_particle", "ns", 0.0}},
+          .figures = {}};
+}
+
+Topic rangeOdometry() {
+  Topic topic{.title = "range_odometry", .yardstick = "dense Eigen", .comparisons = {}, .figures = {}};
+  const std::vector<std::pair<std::string, std::string>> sizes{
+      {"pose", "3 states"}, {"calibrated", "7 states"}, {"anchor_offsets", "23 states"}};
+  for (const std::string kind : {"increment", "range"}) {
+    for (const auto& [name, size] : sizes) {
+      topic.comparisons.push_back({"one " + kind + ", " + size, kind + "_ours/" + name,
+                                   kind + "_dense/" + name, "ns_per_" + kind, "ns", 0.0});
+    }
+  }
+  return topic;
+}
+
+Topic reading() {
+  return {.title = "Reading a rawlog",
+          .yardstick = "MRPT streaming read",
+          .comparisons = {{"1.1 million observations", "read_ours", "read_mrpt", "cpu_time", "ms", 0.0}},
+          .figures = {{"growth of the peak memory", "read_ours", "memory_growth_kb", "kB"}}};
+}
+
+Topic replay() {
+  return {.title = "Replay: reading, ordering, filtering, an estimate at every epoch",
+          .yardstick = "MRPT streaming read alone",
+          .comparisons = {{"1.1 million observations, 1 million estimates", "replay_ours/1",
+                           "replay_mrpt_read", "cpu_time", "ms", 0.5}},
+          .figures = {{"growth of the peak memory", "replay_ours/1", "memory_growth_kb", "kB"},
+                      {"the same with three times the log", "replay_ours/3", "memory_growth_kb", "kB"}}};
+}
+
+}  // namespace
+
+std::vector<Topic> topics() {
+  return {particleFilter(), rangeOdometry(), reading(), replay()};
+}
+
+json parsed(const std::string& text) {
+  static const std::regex kNoNumber(R"(: -?(NaN|Infinity)\b)");
+  return json::parse(std::regex_replace(text, kNoNumber, ": null"));
+}
+
+json joined(const std::vector<json>& runs) {
+  json result;
+  for (const json& run : runs) {
+    if (!run.contains("benchmarks")) throw std::invalid_argument("a run holds no benchmarks");
+    if (result.is_null()) {
+      result = run;
+    } else {
+      for (const json& entry : run.at("benchmarks")) result["benchmarks"].push_back(entry);
+    }
+  }
+  if (result.is_null()) throw std::invalid_argument("no runs");
+  return result;
+}
+
+std::string machineLine(const json& run) {
+  const json& context = run.at("context");
+  const json load = context.value("load_avg", json::array());
+  std::string line = std::to_string(context.at("num_cpus").get<int>()) + " CPUs at " +
+                     std::to_string(context.at("mhz_per_cpu").get<int>()) + " MHz";
+  if (!load.empty()) line += ", load average " + shown(load.front()) + " at the start";
+  return line + ", " + context.at("date").get<std::string>().substr(0, 10);
+}
+
+std::string tables(const json& run, const std::vector<Topic>& topics) {
+  std::string text;
+  for (const Topic& topic : topics) text += (text.empty() ? "" : "\n") + table(run, topic);
+  return text;
+}
+
+}  // namespace pos::bench
