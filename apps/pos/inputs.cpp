@@ -129,6 +129,7 @@ eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config) {
   eval::EvaluationOptions options;
   options.association.max_truth_gap = durationFromSeconds(config.max_gap);
   options.association.time_offset = durationFromSeconds(-config.truth_time_offset);
+  options.truth_sigma = config.truth_sigma;
   switch (config.align) {
     case Align::None: options.alignment = eval::AlignmentMode::None; break;
     case Align::Origin: options.alignment = eval::AlignmentMode::Origin; break;
