@@ -16,23 +16,28 @@ void Voice::detail(const std::string& text) const {
   if (verbose && !quiet) std::cerr << text << "\n";
 }
 
-void Voice::warn(const std::string& text) const { std::cerr << "warning: " << text << "\n"; }
+void Voice::warn(const std::string& text) const {
+  std::cerr << "warning: " << text << "\n";
+}
 
 void addVoice(CLI::App& verb, Voice& voice) {
   verb.add_flag("-q,--quiet", voice.quiet, "Only errors and warnings on standard error");
   verb.add_flag("-v,--verbose", voice.verbose, "More about what is going on");
 }
 
-void print(const std::string& text) { std::cout << text; }
+void print(const std::string& text) {
+  std::cout << text;
+}
 
 void writeFile(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
   if (!file) {
-    throw DataError(Complaint{.what = "the file cannot be written",
-                              .place = {.file = path.string()},
-                              .suggestion = "check that the folder exists, may be written to and has space left"});
+    throw DataError(
+        Complaint{.what = "the file cannot be written",
+                  .place = {.file = path.string()},
+                  .suggestion = "check that the folder exists, may be written to and has space left"});
   }
 }
 
@@ -41,7 +46,9 @@ std::filesystem::path mrptShare() {
   return share != nullptr ? std::filesystem::path(share) : std::filesystem::path("/usr/share/mrpt");
 }
 
-std::string version() { return POS_VERSION; }
+std::string version() {
+  return POS_VERSION;
+}
 std::string gitHash() {
   const std::string hash = POS_GIT_HASH;
   return hash.empty() ? "no revision" : hash;

@@ -20,8 +20,10 @@ void applyCommandLine(const InputOptions& options, io::RunConfig& config) {
   if (!options.map.empty()) config.map = fs::absolute(options.map);
   if (!options.truth.empty()) config.truth = io::TruthSource{fs::absolute(options.truth), Format::Tum, {}};
   if (config.truth && !options.truth_format.empty()) {
-    const std::vector<std::pair<std::string, Format>> names{
-        {"tum", Format::Tum}, {"euroc", Format::Euroc}, {"mrpt_index", Format::MrptIndex}, {"log", Format::Log}};
+    const std::vector<std::pair<std::string, Format>> names{{"tum", Format::Tum},
+                                                            {"euroc", Format::Euroc},
+                                                            {"mrpt_index", Format::MrptIndex},
+                                                            {"log", Format::Log}};
     for (const auto& [name, format] : names) {
       if (name == options.truth_format) config.truth->format = format;
     }
@@ -55,22 +57,28 @@ Truth truthInLog(const fs::path& log) {
 
 Truth readTruth(const io::TruthSource& source, const fs::path& log) {
   switch (source.format) {
-    case Format::Tum: return io::readTumTruth(*source.file);
-    case Format::Euroc: return io::readEurocTruth(*source.file);
-    case Format::MrptIndex: return io::readIndexTruth(*source.file, io::frameStamps(log.string()));
-    case Format::Log: return truthInLog(log);
+    case Format::Tum:
+      return io::readTumTruth(*source.file);
+    case Format::Euroc:
+      return io::readEurocTruth(*source.file);
+    case Format::MrptIndex:
+      return io::readIndexTruth(*source.file, io::frameStamps(log.string()));
+    case Format::Log:
+      return truthInLog(log);
   }
   throw ContractError("unknown truth format");
 }
 
 map::TunnelMap mapOf(const io::RunConfig& config) {
   if (!config.map) return {};
-  return io::loadMap(*config.map, mrptShare(), [](const fs::path& file) { return io::loadGrid(file.string()); });
+  return io::loadMap(*config.map, mrptShare(),
+                     [](const fs::path& file) { return io::loadGrid(file.string()); });
 }
 
-/// `at_truth`: the place of the first reference pose, as a crew would survey the mark the run starts from. Its
-/// heading too where the reference has one; otherwise the heading is left to the estimator.
-void spellOutStart(estimation::StartConfig& start, const std::optional<Truth>& truth, const std::string& name) {
+/// `at_truth`: the place of the first reference pose, as a crew would survey the mark the run starts from.
+/// Its heading too where the reference has one; otherwise the heading is left to the estimator.
+void spellOutStart(estimation::StartConfig& start, const std::optional<Truth>& truth,
+                   const std::string& name) {
   if (start.mode != estimation::StartMode::AtTruth) return;
   if (!truth || truth->poses.empty()) {
     throw ConfigError(Complaint{.what = "start.mode is at_truth, and there is no truth",
@@ -90,7 +98,8 @@ void addInputs(CLI::App& verb, InputOptions& options) {
   verb.add_option("--truth", options.truth, "Reference poses, instead of the configuration's");
   verb.add_option("--truth-format", options.truth_format, "Format of --truth (default tum)")
       ->check(CLI::IsMember({"tum", "euroc", "mrpt_index", "log"}));
-  verb.add_option("--set", options.overrides, "key=value laid over the configuration, e.g. estimators.ekf.range_sigma_m=0.3")
+  verb.add_option("--set", options.overrides,
+                  "key=value laid over the configuration, e.g. estimators.ekf.range_sigma_m=0.3")
       ->take_all()
       ->allow_extra_args(false);
   verb.add_option("--seed", options.seed, "Seed of everything random in the run");
@@ -131,11 +140,21 @@ eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config) {
   options.association.time_offset = durationFromSeconds(-config.truth_time_offset);
   options.truth_sigma = config.truth_sigma;
   switch (config.align) {
-    case Align::None: options.alignment = eval::AlignmentMode::None; break;
-    case Align::Origin: options.alignment = eval::AlignmentMode::Origin; break;
-    case Align::Se2: options.alignment = eval::AlignmentMode::Se2; break;
-    case Align::Se3: options.alignment = eval::AlignmentMode::Se3; break;
-    case Align::PosYaw: options.alignment = eval::AlignmentMode::PosYaw; break;
+    case Align::None:
+      options.alignment = eval::AlignmentMode::None;
+      break;
+    case Align::Origin:
+      options.alignment = eval::AlignmentMode::Origin;
+      break;
+    case Align::Se2:
+      options.alignment = eval::AlignmentMode::Se2;
+      break;
+    case Align::Se3:
+      options.alignment = eval::AlignmentMode::Se3;
+      break;
+    case Align::PosYaw:
+      options.alignment = eval::AlignmentMode::PosYaw;
+      break;
   }
   return options;
 }

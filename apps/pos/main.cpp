@@ -10,7 +10,9 @@ namespace {
 
 using pos::app::ExitCode;
 
-int toInt(ExitCode code) { return static_cast<int>(code); }
+int toInt(ExitCode code) {
+  return static_cast<int>(code);
+}
 
 /// CLI11's own errors keep their texts; its codes become ours.
 int usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -20,7 +22,9 @@ int usage(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Positioning for vehicles under ground: replay logs, compare estimators, see how good each answer is.", "pos"};
+  CLI::App app{
+      "Positioning for vehicles under ground: replay logs, compare estimators, see how good each answer is.",
+      "pos"};
   app.require_subcommand(1);
   app.set_version_flag("--version", pos::app::version());
   app.failure_message([](const CLI::App* failed, const CLI::Error& error) {
@@ -54,7 +58,8 @@ int main(int argc, char** argv) {
     std::cerr << "error: " << error.what() << "\n";
     return error.exitCode();
   } catch (const std::exception& error) {
-    std::cerr << "internal error: " << error.what() << "\n  This is a fault of pos itself; please report it with the command you ran.\n";
+    std::cerr << "internal error: " << error.what()
+              << "\n  This is a fault of pos itself; please report it with the command you ran.\n";
     return toInt(ExitCode::Internal);
   }
 }

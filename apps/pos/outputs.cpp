@@ -40,14 +40,16 @@ void addOutputs(CLI::App& verb, OutputOptions& options) {
   verb.add_flag("--json", options.json, "Print the summary as JSON on standard output");
   verb.add_option("--out", options.folder, "Folder for run.json, trajectories, summary.json and report.html");
   verb.add_flag("--force", options.force, "Replace the files of an earlier run in --out");
-  verb.add_option("--require", options.requirements, "Limit to keep, e.g. 'p95_xy<1.0'; exit code 4 when missed")
+  verb.add_option("--require", options.requirements,
+                  "Limit to keep, e.g. 'p95_xy<1.0'; exit code 4 when missed")
       ->take_all()
       ->allow_extra_args(false);
 }
 
 std::optional<io::RunFolder> openRunFolder(const OutputOptions& options) {
   if (options.folder.empty()) return std::nullopt;
-  return io::RunFolder::create(options.folder, options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
+  return io::RunFolder::create(options.folder,
+                               options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
 }
 
 void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
@@ -56,10 +58,12 @@ void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::Run
   writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
   const fs::path figures = folder.path() / "figures";
   fs::create_directories(figures);
-  for (const report::NamedFigure& figure : report::figures(summary)) writeFile(figures / (figure.name + ".svg"), figure.svg);
+  for (const report::NamedFigure& figure : report::figures(summary))
+    writeFile(figures / (figure.name + ".svg"), figure.svg);
 }
 
-void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder, const Voice& voice) {
+void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,
+          const Voice& voice) {
   for (const std::string& warning : report::warnings(summary)) voice.say("note: " + warning);
   if (options.json) {
     print(report::summaryJson(summary));
@@ -69,10 +73,12 @@ void show(const eval::RunSummary& summary, const OutputOptions& options, const i
   if (folder != nullptr) voice.say("report: " + folder->reportHtml().string());
 }
 
-void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements, const Voice& voice) {
+void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
+                       const Voice& voice) {
   std::string missed;
   for (const std::string& text : requirements) {
-    for (const eval::RequirementResult& result : eval::check(eval::parseRequirement(text, summary), summary)) {
+    for (const eval::RequirementResult& result :
+         eval::check(eval::parseRequirement(text, summary), summary)) {
       voice.say(result.line);
       if (!result.passed) missed += (missed.empty() ? "" : "; ") + result.line;
     }

@@ -28,9 +28,11 @@ std::optional<io::RunFolder> openRunFolder(const OutputOptions& options);
 void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary);
 
 /// The comparison table, or the summary as JSON.
-void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder, const Voice& voice);
+void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,
+          const Voice& voice);
 
 /// Says how each requirement fared; throws RequirementMissed when one was missed.
-void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements, const Voice& voice);
+void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
+                       const Voice& voice);
 
 }  // namespace pos::app

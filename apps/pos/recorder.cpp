@@ -28,7 +28,8 @@ IngestReport Recorder::take(const Measurement& measurement) {
   const auto before = std::chrono::steady_clock::now();
   const IngestReport report = estimator_->ingest(measurement);
   const auto spent = std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - before);
-  if (report.verdict != Verdict::Unsupported) record_.compute.add(spent);  // what it has no use for would flatter it
+  if (report.verdict != Verdict::Unsupported)
+    record_.compute.add(spent);  // what it has no use for would flatter it
   note(measurement, report);
   return report;
 }

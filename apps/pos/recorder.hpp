@@ -16,8 +16,8 @@ struct RecorderFiles {
   io::EstimateCsvWriter csv;
 };
 
-/// One estimator with its record. Estimates are recorded after the last measurement of a stamp, at most `max_rate`
-/// times a second.
+/// One estimator with its record. Estimates are recorded after the last measurement of a stamp, at most
+/// `max_rate` times a second.
 class Recorder {
  public:
   Recorder(const std::string& name, const std::string& type, std::unique_ptr<estimation::Estimator> estimator,
@@ -25,7 +25,8 @@ class Recorder {
   Recorder(Recorder&&) = default;
 
   void openFiles(const io::RunFolder& folder);
-  /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator said.
+  /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator
+  /// said.
   IngestReport take(const Measurement& measurement);
   /// Counts a measurement that the configuration keeps from the estimators.
   void withhold(const Measurement& measurement, std::string_view reason);

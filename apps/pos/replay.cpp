@@ -22,7 +22,8 @@ io::SensorConfig sensorConfig(const io::RunConfig& config, const std::string& se
 /// A sensor whose stamps are moved back arrives that much late: the sequencer has to wait for it.
 Duration sequencerLag(const io::RunConfig& config) {
   double lag = config.sequencer.lag;
-  for (const io::SensorConfig& sensor : config.sensors) lag = std::max(lag, config.sequencer.lag + sensor.latency);
+  for (const io::SensorConfig& sensor : config.sensors)
+    lag = std::max(lag, config.sequencer.lag + sensor.latency);
   return durationFromSeconds(lag);
 }
 
@@ -32,7 +33,8 @@ class Pass {
       : inputs_(inputs), sequencer_(sequencerLag(inputs.config)), faults_(rangeFaults(inputs.config)) {
     for (const io::EstimatorEntry& entry : inputs.config.estimators) {
       recorders_.emplace_back(entry.name, io::typeName(entry.config),
-                              yardstick::makeEstimator(entry.config, inputs.map), inputs.config.record.max_rate);
+                              yardstick::makeAnyEstimator(entry.config, inputs.map),
+                              inputs.config.record.max_rate);
       if (folder != nullptr) recorders_.back().openFiles(*folder);
     }
     if (folder != nullptr) events_.emplace(folder->eventsCsv());
@@ -89,7 +91,8 @@ class Pass {
   void take(Recorder& recorder, const Measurement& measurement) {
     const IngestReport report = recorder.take(measurement);
     if (!report.event.empty() && events_) {
-      events_->write({measurement.stamp, recorder.name(), "estimator", measurement.sensor, std::string(report.event)});
+      events_->write(
+          {measurement.stamp, recorder.name(), "estimator", measurement.sensor, std::string(report.event)});
     }
   }
 
@@ -141,7 +144,8 @@ eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {
   summary.seed = config.seed;
   summary.start = replayed.first;
   summary.end = replayed.last;
-  summary.log_end = {replayed.log_end.damaged, replayed.log_end.objects, replayed.log_end.byte, replayed.log_end.message};
+  summary.log_end = {replayed.log_end.damaged, replayed.log_end.objects, replayed.log_end.byte,
+                     replayed.log_end.message};
   summary.has_truth = inputs.truth.has_value();
   summary.tunnel_map = inputs.map;
   const std::optional<Truth> truth =

@@ -1,4 +1,5 @@
-/// `pos calibrate latency`: how late a sensor's stamps are, found against another sensor of the same log. No truth.
+/// `pos calibrate latency`: how late a sensor's stamps are, found against another sensor of the same log. No
+/// truth.
 
 #include <cmath>
 #include <memory>
@@ -42,12 +43,14 @@ std::vector<eval::TimedPosition> estimatedPath(Inputs inputs, const std::string&
   if (!wanted.empty()) {
     std::erase_if(inputs.config.estimators, [&](const io::EstimatorEntry& e) { return e.name != wanted; });
     if (inputs.config.estimators.empty()) {
-      throw UsageError(Complaint{.what = "the configuration has no such estimator", .key = "--estimator", .got = wanted});
+      throw UsageError(
+          Complaint{.what = "the configuration has no such estimator", .key = "--estimator", .got = wanted});
     }
   }
   const Replayed result = replayed(inputs, nullptr, [](std::uint64_t, Stamp) { return true; });
   std::vector<eval::TimedPosition> path;
-  for (const Estimate& e : result.records.front().estimates) path.push_back({e.stamp, e.T_map_body.translation.head<2>()});
+  for (const Estimate& e : result.records.front().estimates)
+    path.push_back({e.stamp, e.T_map_body.translation.head<2>()});
   return path;
 }
 
@@ -55,22 +58,28 @@ ExitCode runLatency(const Options& options, const Voice& voice) {
   const Inputs inputs = loadInputs(options.inputs);
   const auto reference = satellitePath(inputs.config.log->file);
   if (reference.size() < 10) {
-    throw DataError(Complaint{.what = "the log has too few satellite fixes to calibrate against",
-                              .place = {.file = inputs.config.log->file.string()},
-                              .got = std::to_string(reference.size()) + " fixes",
-                              .expected = "at least 10, while the vehicle moves",
-                              .suggestion = "record a stretch at the surface with a satellite receiver switched on"});
+    throw DataError(
+        Complaint{.what = "the log has too few satellite fixes to calibrate against",
+                  .place = {.file = inputs.config.log->file.string()},
+                  .got = std::to_string(reference.size()) + " fixes",
+                  .expected = "at least 10, while the vehicle moves",
+                  .suggestion = "record a stretch at the surface with a satellite receiver switched on"});
   }
   const auto estimate = estimatedPath(inputs, options.estimator);
   const eval::LatencyFit fit = eval::fittedLatency(estimate, reference, options.window);
   if (options.json) {
-    print(nlohmann::ordered_json{{"latency_s", fit.latency}, {"residual_m", fit.residual},
-                                 {"residual_without_m", fit.residual_at_zero}, {"pairs", fit.pairs}}.dump(2) + "\n");
+    print(nlohmann::ordered_json{{"latency_s", fit.latency},
+                                 {"residual_m", fit.residual},
+                                 {"residual_without_m", fit.residual_at_zero},
+                                 {"pairs", fit.pairs}}
+              .dump(2) +
+          "\n");
   } else {
     char text[160];
     std::snprintf(text, sizeof text, "latency: {value_s: %.3f}\n", fit.latency);
     print(text);
-    std::snprintf(text, sizeof text, "residual %.3f m with it, %.3f m without, over %zu pairs", fit.residual, fit.residual_at_zero, fit.pairs);
+    std::snprintf(text, sizeof text, "residual %.3f m with it, %.3f m without, over %zu pairs", fit.residual,
+                  fit.residual_at_zero, fit.pairs);
     voice.say(text);
   }
   return ExitCode::Ok;
@@ -79,13 +88,17 @@ ExitCode runLatency(const Options& options, const Voice& voice) {
 }  // namespace
 
 void addCalibrate(const Verbs& verbs) {
-  CLI::App* verb = verbs.app->add_subcommand("calibrate", "Find a sensor's constants from a log, without any truth");
+  CLI::App* verb =
+      verbs.app->add_subcommand("calibrate", "Find a sensor's constants from a log, without any truth");
   verb->require_subcommand(1);
-  CLI::App* latency = verb->add_subcommand("latency", "How late the ranges are, against the satellite fixes of the same log");
+  CLI::App* latency =
+      verb->add_subcommand("latency", "How late the ranges are, against the satellite fixes of the same log");
   auto options = std::make_shared<Options>();
   addInputs(*latency, options->inputs);
-  latency->add_option("--estimator", options->estimator, "Estimator that turns ranges into positions (default: the first)");
-  latency->add_option("--window-s", options->window, "Latencies from minus to plus this are tried")->check(CLI::Range(0.1, 10.0));
+  latency->add_option("--estimator", options->estimator,
+                      "Estimator that turns ranges into positions (default: the first)");
+  latency->add_option("--window-s", options->window, "Latencies from minus to plus this are tried")
+      ->check(CLI::Range(0.1, 10.0));
   latency->add_flag("--json", options->json, "Print JSON");
   addVoice(*latency, *verbs.voice);
   latency->callback([options, verbs] { *verbs.code = runLatency(*options, *verbs.voice); });

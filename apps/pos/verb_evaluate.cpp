@@ -37,7 +37,8 @@ eval::AlignmentMode alignmentMode(const std::string& word) {
 }
 
 ExitCode runEvaluate(const Options& options, const Voice& voice) {
-  const Truth truth = options.truth_format == "euroc" ? io::readEurocTruth(options.truth) : io::readTumTruth(options.truth);
+  const Truth truth =
+      options.truth_format == "euroc" ? io::readEurocTruth(options.truth) : io::readTumTruth(options.truth);
   eval::EvaluationOptions evaluation;
   evaluation.alignment = alignmentMode(options.align);
   evaluation.association.time_offset = durationFromSeconds(options.time_offset);
@@ -72,15 +73,20 @@ ExitCode runEvaluate(const Options& options, const Voice& voice) {
 }  // namespace
 
 void addEvaluate(const Verbs& verbs) {
-  CLI::App* verb = verbs.app->add_subcommand("evaluate", "Judge recorded trajectories against reference poses");
+  CLI::App* verb =
+      verbs.app->add_subcommand("evaluate", "Judge recorded trajectories against reference poses");
   auto options = std::make_shared<Options>();
-  verb->add_option("trajectory", options->trajectories, "TUM files (8 or 20 columns) or <estimator>.csv of a run folder")
+  verb->add_option("trajectory", options->trajectories,
+                   "TUM files (8 or 20 columns) or <estimator>.csv of a run folder")
       ->required();
   verb->add_option("--truth", options->truth, "Reference poses")->required();
-  verb->add_option("--truth-format", options->truth_format, "Format of --truth")->check(CLI::IsMember({"tum", "euroc"}));
-  verb->add_option("--align", options->align, "Lay the estimate on the truth first (default: none, the map frame counts)")
+  verb->add_option("--truth-format", options->truth_format, "Format of --truth")
+      ->check(CLI::IsMember({"tum", "euroc"}));
+  verb->add_option("--align", options->align,
+                   "Lay the estimate on the truth first (default: none, the map frame counts)")
       ->check(CLI::IsMember({"none", "origin", "se2", "se3", "posyaw"}));
-  verb->add_option("--time-offset-s", options->time_offset, "Added to the estimates' stamps before the truth is asked");
+  verb->add_option("--time-offset-s", options->time_offset,
+                   "Added to the estimates' stamps before the truth is asked");
   verb->add_option("--max-gap-s", options->max_gap, "Longest gap of the truth that is interpolated over");
   verb->add_option("--truth-sigma-m", options->truth_sigma, "How good the truth is, per axis (default 0); enters the NEES only")
       ->check(CLI::Range(0.0, 1000.0));

@@ -20,12 +20,18 @@ nlohmann::ordered_json toJson(const io::LogInfo& info) {
                               {"objects", info.end.objects},
                               {"byte", info.end.byte}};
   for (const io::SensorInfo& s : info.sensors) {
-    json["sensors"].push_back({{"label", s.label}, {"kind", s.kind}, {"count", s.count}, {"rate_hz", s.rate},
+    json["sensors"].push_back({{"label", s.label},
+                               {"kind", s.kind},
+                               {"count", s.count},
+                               {"rate_hz", s.rate},
                                {"largest_gap_s", seconds(s.largest_gap)}});
   }
   for (const io::AnchorInfo& a : info.anchors) {
-    json["anchors"].push_back({{"id", a.id}, {"count", a.count}, {"range_min_m", a.range_min},
-                               {"range_median_m", a.range_median}, {"range_max_m", a.range_max}});
+    json["anchors"].push_back({{"id", a.id},
+                               {"count", a.count},
+                               {"range_min_m", a.range_min},
+                               {"range_median_m", a.range_median},
+                               {"range_max_m", a.range_max}});
   }
   json["skipped"] = info.tally.skipped;
   json["refused"] = info.tally.refused;
@@ -44,7 +50,10 @@ ExitCode runInfo(const std::vector<std::string>& logs, bool as_json) {
       print(io::toText(info) + (logs.size() > 1 ? "\n" : ""));
     }
   }
-  if (as_json) print((logs.size() == 1 ? all.front() : all).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  if (as_json)
+    print(
+        (logs.size() == 1 ? all.front() : all).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+        "\n");
   return damaged ? ExitCode::Data : ExitCode::Ok;
 }
 

@@ -1,4 +1,5 @@
-/// `pos report`: the report of a run folder, made again (after the folder was copied, or pos got better pictures).
+/// `pos report`: the report of a run folder, made again (after the folder was copied, or pos got better
+/// pictures).
 
 #include <fstream>
 #include <memory>
@@ -31,7 +32,8 @@ std::string resolvedConfigOf(const fs::path& folder) {
   try {
     return nlohmann::json::parse(file).at("config").get<std::string>();
   } catch (const nlohmann::json::exception& error) {
-    throw DataError(Complaint{.what = "run.json cannot be read", .place = {.file = path.string()}, .got = error.what()});
+    throw DataError(
+        Complaint{.what = "run.json cannot be read", .place = {.file = path.string()}, .got = error.what()});
   }
 }
 

@@ -75,7 +75,7 @@ std::vector<Subject> subjects() {
 
 class EveryEstimator : public ::testing::TestWithParam<Subject> {
  protected:
-  std::unique_ptr<Estimator> make() const { return yardstick::makeEstimator(GetParam().config, smallMap()); }
+  std::unique_ptr<Estimator> make() const { return yardstick::makeAnyEstimator(GetParam().config, smallMap()); }
   std::vector<Measurement> log(double duration = 6.0) const {
     return smallRun({.duration = duration, .scans = GetParam().uses_scans});
   }
@@ -190,7 +190,9 @@ TEST_P(EveryEstimator, EqualStampsAndZeroIncrementsAreLegal) {
   EXPECT_NE(report.verdict, Verdict::TooOld);
   const auto after = estimator->estimateAt(run.back().stamp);
   ASSERT_EQ(before.has_value(), after.has_value());
-  if (before) EXPECT_LT((before->T_map_body.translation - after->T_map_body.translation).norm(), 0.25);
+  if (before) {
+    EXPECT_LT((before->T_map_body.translation - after->T_map_body.translation).norm(), 0.25);
+  }
 }
 
 TEST_P(EveryEstimator, AnswersNothingBeforeTheFirstMeasurement) {

@@ -9,8 +9,8 @@
 namespace pos::eval {
 namespace {
 
-constexpr double kStep = 0.01;      // s
-constexpr double kLongestGap = 1.0; // s, bridged in the reference
+constexpr double kStep = 0.01;       // s
+constexpr double kLongestGap = 1.0;  // s, bridged in the reference
 
 struct Residual {
   double rms = 0.0;
@@ -28,9 +28,10 @@ std::optional<Eigen::Vector2d> at(const std::vector<TimedPosition>& path, Stamp 
   return (1.0 - share) * before->p + share * after->p;
 }
 
-/// RMS distance of paired points after the best plane rotation and shift (Umeyama 1991 in two dimensions: the least
-/// squares angle is that of the complex correlation).
-Residual residualAt(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference, double latency) {
+/// RMS distance of paired points after the best plane rotation and shift (Umeyama 1991 in two dimensions: the
+/// least squares angle is that of the complex correlation).
+Residual residualAt(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference,
+                    double latency) {
   std::vector<Eigen::Vector2d> a;
   std::vector<Eigen::Vector2d> b;
   for (const TimedPosition& point : late) {
@@ -68,7 +69,8 @@ double parabolaOffset(double left, double middle, double right) {
 
 }  // namespace
 
-LatencyFit fittedLatency(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference, double window) {
+LatencyFit fittedLatency(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference,
+                         double window) {
   const int steps = static_cast<int>(std::lround(window / kStep));
   std::vector<Residual> residuals;
   for (int i = -steps; i <= steps; ++i) residuals.push_back(residualAt(late, reference, i * kStep));
@@ -78,8 +80,8 @@ LatencyFit fittedLatency(const std::vector<TimedPosition>& late, const std::vect
                                       [](const Residual& a, const Residual& b) { return a.rms < b.rms; });
   if (best->pairs < 10 || worst->rms - best->rms < 0.01) {
     throw DataError(Complaint{.what = "the latency cannot be found from this log",
-                              .got = std::to_string(best->pairs) + " pairs, residual from " + std::to_string(best->rms) +
-                                     " to " + std::to_string(worst->rms) + " m",
+                              .got = std::to_string(best->pairs) + " pairs, residual from " +
+                                     std::to_string(best->rms) + " to " + std::to_string(worst->rms) + " m",
                               .expected = "a stretch on which the vehicle moves and both sensors are heard",
                               .suggestion = "record a minute of driving with turns and stops"});
   }

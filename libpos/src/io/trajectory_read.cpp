@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "pos/core/error.hpp"
@@ -140,8 +140,8 @@ double variance(const CsvReader& csv, std::size_t column, double unit) {
 
 namespace {
 
-/// TUM has no way to say "not measured": a file in which every orientation is the identity holds none, and one in
-/// which every height is exactly zero is a plan.
+/// TUM has no way to say "not measured": a file in which every orientation is the identity holds none, and
+/// one in which every height is exactly zero is a plan.
 Truth withKnownParts(Truth truth) {
   const auto turned = [](const TruthPose& pose) { return !pose.T_map_body.rotation.vec().isZero(0.0); };
   const auto raised = [](const TruthPose& pose) { return pose.T_map_body.translation.z() != 0.0; };

@@ -65,7 +65,8 @@ TEST(RangeOdometry, FindsItsHeadingFromAnyStart) {
     config.start.pose.yaw = wrapAngle(config.start.pose.yaw + wrong);
     RangeOdometry estimator(config, smallMap());
     EXPECT_LT(rmsError(estimator, smallRun({.duration = 60.0}), 8.0), 0.15) << wrong;
-    EXPECT_LE(diagnostic(estimator, "hypotheses"), 4.0);  // a doubted range may have forked the winner just now
+    EXPECT_LE(diagnostic(estimator, "hypotheses"),
+              4.0);  // a doubted range may have forked the winner just now
   }
 }
 
