@@ -130,6 +130,8 @@ Inputs loadInputs(const InputOptions& options) {
           entry.config);
     }
   }
+  inputs.config =
+      io::validated(std::move(inputs.config));  // a start that was spelt out may not suit its estimator
   return inputs;
 }
 

@@ -88,7 +88,8 @@ void addEvaluate(const Verbs& verbs) {
   verb->add_option("--time-offset-s", options->time_offset,
                    "Added to the estimates' stamps before the truth is asked");
   verb->add_option("--max-gap-s", options->max_gap, "Longest gap of the truth that is interpolated over");
-  verb->add_option("--truth-sigma-m", options->truth_sigma, "How good the truth is, per axis (default 0); enters the NEES only")
+  verb->add_option("--truth-sigma-m", options->truth_sigma,
+                   "How good the truth is, per axis (default 0); enters the NEES only")
       ->check(CLI::Range(0.0, 1000.0));
   addOutputs(*verb, options->outputs);
   addVoice(*verb, *verbs.voice);
