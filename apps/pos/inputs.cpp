@@ -130,6 +130,8 @@ Inputs loadInputs(const InputOptions& options) {
           entry.config);
     }
   }
+  inputs.config =
+      io::validated(std::move(inputs.config));  // a start that was spelt out may not suit its estimator
   return inputs;
 }
 
@@ -138,6 +140,7 @@ eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config) {
   eval::EvaluationOptions options;
   options.association.max_truth_gap = durationFromSeconds(config.max_gap);
   options.association.time_offset = durationFromSeconds(-config.truth_time_offset);
+  options.truth_sigma = config.truth_sigma;
   switch (config.align) {
     case Align::None:
       options.alignment = eval::AlignmentMode::None;

@@ -20,6 +20,7 @@ struct Options {
   std::string align = "none";
   double time_offset = 0.0;
   double max_gap = 1.0;
+  double truth_sigma = 0.0;
   OutputOptions outputs;
 };
 
@@ -42,6 +43,7 @@ ExitCode runEvaluate(const Options& options, const Voice& voice) {
   evaluation.alignment = alignmentMode(options.align);
   evaluation.association.time_offset = durationFromSeconds(options.time_offset);
   evaluation.association.max_truth_gap = durationFromSeconds(options.max_gap);
+  evaluation.truth_sigma = options.truth_sigma;
 
   eval::RunSummary summary;
   summary.run = "evaluate";
@@ -86,6 +88,9 @@ void addEvaluate(const Verbs& verbs) {
   verb->add_option("--time-offset-s", options->time_offset,
                    "Added to the estimates' stamps before the truth is asked");
   verb->add_option("--max-gap-s", options->max_gap, "Longest gap of the truth that is interpolated over");
+  verb->add_option("--truth-sigma-m", options->truth_sigma,
+                   "How good the truth is, per axis (default 0); enters the NEES only")
+      ->check(CLI::Range(0.0, 1000.0));
   addOutputs(*verb, options->outputs);
   addVoice(*verb, *verbs.voice);
   verb->callback([options, verbs] { *verbs.code = runEvaluate(*options, *verbs.voice); });

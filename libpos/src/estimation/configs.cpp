@@ -117,8 +117,9 @@ GateConfig validated(GateConfig config) {
 DeadReckoningConfig validated(DeadReckoningConfig config) {
   requireValid(config.start, "start");
   requireValid(config.noise, "odometry_noise");
-  if (config.start.mode != StartMode::Known) {
-    refuse("dead reckoning cannot find its start by itself", "start.mode", "", "known");
+  if (config.start.mode != StartMode::Known && config.start.mode != StartMode::AtTruth) {
+    refuse("dead reckoning cannot find its start by itself", "start.mode", "",
+           "known, or at_truth with a truth that has a heading");
   }
   return config;
 }

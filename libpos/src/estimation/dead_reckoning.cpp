@@ -1,11 +1,14 @@
 #include "pos/estimation/dead_reckoning.hpp"
 
+#include "pos/core/error.hpp"
 #include "pos/estimation/range_models.hpp"
 
 namespace pos::estimation {
 namespace {
 
 Belief<Pose2> startOf(const StartConfig& start) {
+  ensure(start.mode != StartMode::AtTruth,
+         "start.mode at_truth must be spelt out before an estimator is made");
   const double p = start.position_sigma * start.position_sigma;
   const double yaw_sigma = start.mode == StartMode::Known ? start.yaw_sigma : kPi;
   return {start.pose, Vector<3>(p, p, yaw_sigma * yaw_sigma).asDiagonal()};

@@ -67,6 +67,11 @@ double NeesSummary::sigmaFactor() const {
   return count == 0 ? 1.0 : std::sqrt(mean / static_cast<double>(dof));
 }
 
+double NeesSummary::explainingTruthSigma(double rmse_xy) const {
+  const double factor = sigmaFactor();
+  return factor > 1.0 ? rmse_xy * std::sqrt(0.5 * (1.0 - 1.0 / (factor * factor))) : 0.0;
+}
+
 double effectiveSampleSize(const std::vector<double>& series) {
   const double n = static_cast<double>(series.size());
   if (series.size() < 2) return n;

@@ -7,13 +7,15 @@ namespace pos::eval {
 
 namespace {
 
-/// e^T P^-1 e, or nothing where P is not positive definite.
+/// e^T (P + R)^-1 e with R = the truth's own variance of x and y, or nothing where the claim P itself is not
+/// positive definite.
 template <int N>
-std::optional<double> nees(const Vector<N>& e, const Matrix<N, N>& P) {
+std::optional<double> nees(const Vector<N>& e, const Matrix<N, N>& P, double truth_variance) {
   if (!P.allFinite()) return std::nullopt;
-  const Eigen::LLT<Matrix<N, N>> llt(P);
-  if (llt.info() != Eigen::Success) return std::nullopt;
-  const double value = e.dot(llt.solve(e));
+  if (P.llt().info() != Eigen::Success) return std::nullopt;
+  Matrix<N, N> sum = P;
+  sum.template topLeftCorner<2, 2>() += truth_variance * Eigen::Matrix2d::Identity();
+  const double value = e.dot(sum.llt().solve(e));
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
@@ -27,7 +29,7 @@ ScalarError projected(const Eigen::Vector2d& e, const Eigen::Matrix2d& P, const 
 }
 
 ErrorSample errorSample(const Estimate& estimate, const Pose3& T_map_truth, const Truth& truth,
-                        const std::optional<Eigen::Vector2d>& tangent) {
+                        const std::optional<Eigen::Vector2d>& tangent, double truth_variance) {
   const Matrix<3, 3> P = estimate.planarCovariance();
   const Eigen::Vector3d e = estimate.T_map_body.translation - T_map_truth.translation;
   const Eigen::Vector2d e_xy = e.head<2>();
@@ -39,7 +41,7 @@ ErrorSample errorSample(const Estimate& estimate, const Pose3& T_map_truth, cons
   sample.x = projected(e_xy, P_xy, Eigen::Vector2d::UnitX());
   sample.y = projected(e_xy, P_xy, Eigen::Vector2d::UnitY());
   sample.xy = e_xy.norm();
-  sample.nees_xy = nees<2>(e_xy, P_xy);
+  sample.nees_xy = nees<2>(e_xy, P_xy, truth_variance);
   if (truth.has_z) sample.z = ScalarError{e.z(), sigmaOf(estimate.covariance(2, 2))};
   if (tangent) {
     sample.along = projected(e_xy, P_xy, *tangent);
@@ -48,7 +50,7 @@ ErrorSample errorSample(const Estimate& estimate, const Pose3& T_map_truth, cons
   if (truth.has_yaw) {
     const double e_yaw = wrapAngle(estimate.T_map_body.yaw() - T_map_truth.yaw());
     sample.yaw = ScalarError{e_yaw, sigmaOf(P(2, 2))};
-    sample.nees_pose = nees<3>({e_xy.x(), e_xy.y(), e_yaw}, P);
+    sample.nees_pose = nees<3>({e_xy.x(), e_xy.y(), e_yaw}, P, truth_variance);
   }
   return sample;
 }
@@ -56,14 +58,14 @@ ErrorSample errorSample(const Estimate& estimate, const Pose3& T_map_truth, cons
 }  // namespace
 
 ErrorSeries errorSeries(const std::vector<MatchedPose>& pairs, const Alignment& alignment, const Truth& truth,
-                        const PathTangentOptions& options) {
+                        const PathTangentOptions& options, double truth_sigma) {
   ErrorSeries series;
   if (pairs.empty()) return series;
   const PathTangent tangent(truth, options);
   series.reserve(pairs.size());
   for (const MatchedPose& pair : pairs) {
     series.push_back(errorSample(aligned(pair.estimate, alignment), pair.T_map_truth, truth,
-                                 tangent.at(pair.truth_stamp)));
+                                 tangent.at(pair.truth_stamp), truth_sigma * truth_sigma));
   }
   return series;
 }

@@ -134,8 +134,9 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   const Alignment shift = alignment(matches.pairs, options.alignment, *truth);
   PathTangentOptions tangent = options.tangent;
   tangent.max_truth_gap = options.association.max_truth_gap;  // one idea of a hole in the truth
-  const ErrorSeries errors = errorSeries(matches.pairs, shift, *truth, tangent);
+  const ErrorSeries errors = errorSeries(matches.pairs, shift, *truth, tangent, options.truth_sigma);
   Evaluation e = evaluation(matches, errors, shift);
+  e.consistency.truth_sigma = options.truth_sigma;
   e.relative = relativeErrors(errors, options.relative);
   e.xy = errorPlot(errors, Component::Xy, start, options.plot_points);
   e.along = errorPlot(errors, Component::Along, start, options.plot_points);

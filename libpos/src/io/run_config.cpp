@@ -140,7 +140,9 @@ OptionTable<EvaluationConfig> evaluationOptions() {
       .number("max_gap_s", &EvaluationConfig::max_gap, between(0.001, 3600),
               "The truth is not interpolated over a longer gap.")
       .number("truth_time_offset_s", &EvaluationConfig::truth_time_offset, anything(),
-              "Added to the stamps of the truth.");
+              "Added to the stamps of the truth.")
+      .number("truth_sigma_m", &EvaluationConfig::truth_sigma, between(0, 1000),
+              "How good the truth is, per axis; added to the claimed covariance for the NEES only.");
 }
 
 OptionTable<LogSource> logOptions() {

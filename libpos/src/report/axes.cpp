@@ -87,7 +87,11 @@ std::vector<double> Scale::ticks(int wanted) const {
     return round;
   }
   std::vector<double> decades = logTicks(low, high);
-  if (decades.size() >= 2) return decades;
+  if (decades.size() > 5 &&
+      static_cast<int>(decades.size()) > wanted + 1) {  // every other, so that they can be read
+    std::erase_if(decades, [](double tick) { return std::lround(std::log10(tick)) % 2 != 0; });
+  }
+  if (decades.size() >= 4 || 3 * static_cast<int>(decades.size()) > 2 * wanted) return decades;
   std::vector<double> all;
   const double first = std::pow(10.0, std::floor(std::log10(low)));
   for (double decade = first; decade <= high; decade *= 10.0) {
@@ -140,6 +144,9 @@ double drawLegend(Svg& svg, Pixel top_left, double width, const std::vector<Lege
         break;
       case LegendEntry::Sign::Square:
         svg.rect({x + 6.0, y - 6.0, 12.0, 12.0}, entries[i].classes);
+        break;
+      case LegendEntry::Sign::Triangle:
+        svg.polygon({{x + 12.0, y - 7.0}, {x + 18.5, y + 5.0}, {x + 5.5, y + 5.0}}, entries[i].classes);
         break;
       case LegendEntry::Sign::Band:
         svg.rect({x, y - 6.0, 22.0, 12.0}, entries[i].classes);

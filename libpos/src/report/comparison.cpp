@@ -46,8 +46,8 @@ Column neesColumn() {
           [](const EstimatorSummary& e) {
             const auto* nees = neesOf(e);
             if (nees == nullptr) return std::string(kNoValue);
-            return rounded(nees->mean) + " [" + fixed(nees->bounds.low, 2) + ".." +
-                   fixed(nees->bounds.high, 2) + "]";
+            return rounded(nees->mean) + " [" + rounded(nees->bounds.low) + ".." +
+                   rounded(nees->bounds.high) + "]";
           },
           [](const EstimatorSummary& e) -> std::optional<double> {
             const auto* nees = neesOf(e);
@@ -102,20 +102,42 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_left)
   return to_the_left ? text + space : space + text;
 }
 
+std::string factorText(double factor) {
+  return fixed(factor, factor < 10.0 ? 1 : 0);
+}
+
 std::string neesWarning(const EstimatorSummary& e) {
   const eval::NeesSummary* nees = neesOf(e);
   if (nees == nullptr) return "";
-  const std::string figures = " (mean NEES " + rounded(nees->mean) + ", expected 2, 95 % bounds " +
-                              fixed(nees->bounds.low, 2) + " to " + fixed(nees->bounds.high, 2) + ").";
+  const std::string figures = " (errors against its own sigmas; NEES " + rounded(nees->mean) +
+                              ", honest would be " + rounded(nees->bounds.low) + " to " +
+                              rounded(nees->bounds.high) + ").";
   if (nees->honesty() == eval::Honesty::TooSure) {
-    return e.name + " is too sure of itself by a factor ~" + fixed(nees->sigmaFactor(), 1) +
-           ": its true errors are that much larger than the sigmas it reports" + figures;
+    return e.name + " is too sure of itself by a factor ~" + factorText(nees->sigmaFactor()) + figures;
   }
   if (nees->honesty() == eval::Honesty::TooCautious) {
-    return e.name + " is too cautious by a factor ~" + fixed(1.0 / std::max(nees->sigmaFactor(), 1e-6), 1) +
-           ": it reports larger sigmas than its errors call for" + figures;
+    return e.name + " is too cautious by a factor ~" + factorText(1.0 / std::max(nees->sigmaFactor(), 1e-6)) +
+           figures;
   }
   return "";
+}
+
+/// What a truth that is not perfect would explain of the overconfidence above; empty when there is none, or
+/// when the truth's own accuracy was counted already.
+std::string truthWarning(const eval::RunSummary& run) {
+  std::string list;
+  for (const EstimatorSummary& e : run.estimators) {
+    const eval::NeesSummary* nees = neesOf(e);
+    if (nees == nullptr || nees->honesty() != eval::Honesty::TooSure) continue;
+    if (e.evaluation->consistency.truth_sigma > 0.0) continue;
+    const double sigma = nees->explainingTruthSigma(e.rmseXy().value_or(0.0));
+    list += (list.empty() ? "" : ", ") + e.name + " " + fixed(sigma, 2) + " m";
+  }
+  if (list.empty()) return "";
+  return "The truth was taken as perfect. One that is itself wrong by about this much per axis would alone "
+         "look like "
+         "the overconfidence above: " +
+         list + ". If yours is no better, say so with evaluation.truth_sigma_m.";
 }
 
 std::vector<std::string> estimatorWarnings(const EstimatorSummary& e, Duration log_span) {
@@ -167,6 +189,15 @@ Comparison comparison(const eval::RunSummary& run) {
   return table;
 }
 
+std::string truthSigmaNote(const eval::RunSummary& run) {
+  for (const EstimatorSummary& e : run.estimators) {
+    if (!e.evaluation || e.evaluation->consistency.truth_sigma <= 0.0) continue;
+    return "NEES counts the truth as good to " + rounded(e.evaluation->consistency.truth_sigma) +
+           " m per axis (evaluation.truth_sigma_m).";
+  }
+  return "";
+}
+
 std::string comparisonTable(const eval::RunSummary& run) {
   const Comparison table = comparison(run);
   std::vector<std::vector<std::string>> lines{table.columns};
@@ -195,6 +226,7 @@ std::string comparisonTable(const eval::RunSummary& run) {
     }
   }
   if (any_best) text += "* best in its column\n";
+  if (const std::string note = truthSigmaNote(run); !note.empty()) text += note + "\n";
   return text;
 }
 
@@ -212,6 +244,7 @@ std::vector<std::string> warnings(const eval::RunSummary& run) {
     const std::vector<std::string> its = estimatorWarnings(estimator, run.end - run.start);
     all.insert(all.end(), its.begin(), its.end());
   }
+  if (const std::string text = truthWarning(run); !text.empty()) all.push_back(text);
   return all;
 }
 

@@ -89,7 +89,7 @@ std::string anchorLabel(const eval::RunSummary& run, AnchorId id) {
   const map::Anchor* anchor = run.tunnel_map ? run.tunnel_map->findAnchor(id) : nullptr;
   const std::string number = "anchor " + std::to_string(id);
   if (anchor == nullptr) return run.tunnel_map ? number + " (not in the map)" : number;
-  return anchor->name.empty() ? number : number + " " + anchor->name;
+  return anchor->name.empty() || anchor->name == std::to_string(id) ? number : number + " " + anchor->name;
 }
 
 }  // namespace

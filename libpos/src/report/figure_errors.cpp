@@ -110,7 +110,7 @@ std::optional<NamedFigure> errorFigure(const eval::RunSummary& run) {
       "error_xy", "Horizontal error over time",
       std::string("Distance between estimate and truth at every moment: lower is better, a growing "
                   "line is drift") +
-          (logarithmic ? "; each grid line upward is ten times more." : "."),
+          (logarithmic ? "; the axis is logarithmic, the same step upward is the same factor." : "."),
       svg.str()};
 }
 

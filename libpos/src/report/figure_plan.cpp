@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "figure_parts.hpp"
 #include "pos/report/png.hpp"
@@ -119,12 +120,19 @@ double roundLength(double most) {
   return power;
 }
 
-void drawScaleBar(Svg& svg, const Plot& plot) {
+/// Bottom left, or bottom right where an anchor is in the way.
+void drawScaleBar(Svg& svg, const Plot& plot, const std::vector<map::Anchor>& anchors) {
   const double metres_per_pixel = (plot.x.high - plot.x.low) / plot.box.width;
   const double length = roundLength(160.0 * metres_per_pixel);
   const double pixels_long = length / metres_per_pixel;
   const double y = plot.box.bottom() - 14.0;
-  const double x = plot.box.left + 14.0;
+  const double room = pixels_long + 40.0;
+  const bool taken = std::any_of(anchors.begin(), anchors.end(), [&](const map::Anchor& anchor) {
+    const Pixel at = plot(anchor.p_map.x(), anchor.p_map.y());
+    return at.x < plot.box.left + room && at.y > y - 44.0;
+  });
+  const double x = taken ? plot.box.right() - 14.0 - pixels_long : plot.box.left + 14.0;
+  svg.rect({x - 8.0, y - 24.0, pixels_long + 16.0, 33.0}, "paper");
   svg.line({x, y}, {x + pixels_long, y}, "inkline");
   svg.line({x, y - 5.0}, {x, y + 5.0}, "inkline");
   svg.line({x + pixels_long, y - 5.0}, {x + pixels_long, y + 5.0}, "inkline");
@@ -155,6 +163,16 @@ void drawColourBar(Svg& svg, const Plot& plot, double saturation) {
   svg.text({left - 4.0, plot.box.top + 8.0}, "error (m)", "start small");
 }
 
+/// Estimators from the largest rmse to the smallest, so that a lost one does not cover the others.
+std::vector<std::size_t> worstFirst(const eval::RunSummary& run) {
+  std::vector<std::size_t> order(run.estimators.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&run](std::size_t a, std::size_t b) {
+    return run.estimators[a].rmseXy().value_or(0.0) > run.estimators[b].rmseXy().value_or(0.0);
+  });
+  return order;
+}
+
 }  // namespace
 
 std::optional<NamedFigure> planFigure(const eval::RunSummary& run) {
@@ -172,7 +190,7 @@ std::optional<NamedFigure> planFigure(const eval::RunSummary& run) {
     legend.push_back({shortened(run.estimators[i].name, kNameCharacters), strokeClass(i)});
   }
   if (run.tunnel_map && !run.tunnel_map->anchors.empty()) {
-    legend.push_back({"anchor", "anchor", LegendEntry::Sign::Square});
+    legend.push_back({"anchor", "anchor", LegendEntry::Sign::Triangle});
   }
 
   const double top = kTitleHeight + legendHeight(kPlotWidth, legend) + 8.0;
@@ -185,13 +203,13 @@ std::optional<NamedFigure> planFigure(const eval::RunSummary& run) {
   svg.beginClip(plot.box);
   if (run.tunnel_map && run.tunnel_map->grid) drawGrid(svg, plot, *run.tunnel_map->grid);
   svg.polyline(pixels(plot, run.truth_path), "truth");
-  for (std::size_t i = 0; i < run.estimators.size(); ++i) {
+  for (const std::size_t i : worstFirst(run)) {
     if (xy && &run.estimators[i] == best) continue;
-    svg.polyline(pixels(plot, run.estimators[i].path), strokeClass(i) + " thin");
+    svg.polyline(pixels(plot, run.estimators[i].path), strokeClass(i) + (xy ? " thin pale" : " thin"));
   }
   if (xy) drawColoured(svg, plot, best->path, saturation);
   if (run.tunnel_map) drawAnchors(svg, plot, run.tunnel_map->anchors);
-  drawScaleBar(svg, plot);
+  drawScaleBar(svg, plot, run.tunnel_map ? run.tunnel_map->anchors : std::vector<map::Anchor>{});
   drawNorth(svg, plot);
   svg.endClip();
   if (xy) drawColourBar(svg, plot, saturation);

@@ -63,10 +63,19 @@ void drawSamples(Svg& svg, const Plot& plot, const AnchorResiduals& anchor, Stam
   }
 }
 
-std::string panelHeading(const AnchorResiduals& anchor) {
+/// How far the farthest sample lies beyond the frame; empty where all are inside.
+std::string beyondText(const AnchorResiduals& anchor, double half) {
+  double farthest = 0.0;
+  for (const ResidualSample& s : anchor.samples) {
+    if (std::abs(s.residual) > std::abs(farthest)) farthest = s.residual;
+  }
+  return std::abs(farthest) > half ? ", farthest " + fixed(farthest, 1) + " m" : "";
+}
+
+std::string panelHeading(const AnchorResiduals& anchor, double half) {
   return "anchor " + std::to_string(anchor.anchor) + ": median " + fixed(anchor.all.median, 3) +
          " m, spread " + fixed(anchor.all.mad_sigma, 3) + " m, " + grouped(anchor.applied.count) + " of " +
-         grouped(anchor.all.count) + " applied";
+         grouped(anchor.all.count) + " applied" + beyondText(anchor, half);
 }
 
 }  // namespace
@@ -87,8 +96,8 @@ std::optional<NamedFigure> residualFigure(const eval::RunSummary& run) {
   for (std::size_t k = 0; k < anchors.size(); ++k) {
     const Box box{kLeft, top + static_cast<double>(k) * (kPanel + kBetween), kPlotWidth, kPanel};
     const Plot plot = plotOver(box, 0.0, runLength(run), -half, half);
-    drawAxes(svg, plot, {k + 1 == anchors.size() ? "time since the start (s)" : "", "m"});
-    svg.text({kLeft, box.top - 6.0}, panelHeading(*anchors[k]), "start small strong");
+    drawAxes(svg, plot, {k + 1 == anchors.size() ? "time since the start (s)" : "", "residual (m)"});
+    svg.text({kLeft, box.top - 6.0}, panelHeading(*anchors[k], half), "start small strong");
     svg.line({box.left, plot.y(0.0)}, {box.right(), plot.y(0.0)}, "zero");
     drawSamples(svg, plot, *anchors[k], run.start);
   }
@@ -97,12 +106,14 @@ std::optional<NamedFigure> residualFigure(const eval::RunSummary& run) {
                                          " anchors heard most of " +
                                          std::to_string(estimator->residuals.size()) + "."
                                    : "";
-  return NamedFigure{
-      "residuals", title,
-      "Measured minus predicted range: a band away from zero is an offset of that anchor, points high "
-      "above it are reflections or rock in the way; values beyond the frame sit on its edge." +
-          left_out,
-      svg.str()};
+  return NamedFigure{"residuals", title,
+                     "Measured minus predicted range: a band away from zero is an offset of that anchor, "
+                     "points far above it are "
+                     "reflections or rock in the way, points far below it faults of the radio; values beyond "
+                     "the frame sit on its "
+                     "edge." +
+                         left_out,
+                     svg.str()};
 }
 
 }  // namespace pos::report

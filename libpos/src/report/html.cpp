@@ -26,8 +26,8 @@ padding:.7rem 1rem}.warnings ul{margin:.2rem 0 0;padding-left:1.2rem}
 .scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:6px}
 table{border-collapse:collapse;width:100%;font-size:.86rem;font-variant-numeric:tabular-nums}
 th,td{padding:.42rem .5rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
-tr:last-child td,tr:last-child th{border-bottom:0}th:first-child,td:first-child{text-align:left}
-thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600;white-space:normal;overflow-wrap:anywhere;min-width:9rem}
+small{font-size:.78rem;font-weight:400;color:var(--muted)}tbody tr:last-child td,tbody tr:last-child th{border-bottom:0}th:first-child,td:first-child{text-align:left}
+thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600;white-space:normal;overflow-wrap:break-word;max-width:16rem}
 td.best{background:var(--best);font-weight:600}.star{color:var(--accent)}
 .note{color:var(--muted);font-size:.88rem;margin:.5rem 0 0}
 figure{margin:0 0 1.6rem;background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:14px 14px 10px}
@@ -75,9 +75,16 @@ std::string alignmentNote(const eval::RunSummary& run) {
   return run.has_truth ? " Estimates were not aligned with the truth." : "";
 }
 
+/// Bounds in brackets go below their figure, small: the column stays narrow.
+std::string withSecondLine(const std::string& text) {
+  const std::size_t bracket = text.find(" [");
+  if (bracket == std::string::npos) return text;
+  return text.substr(0, bracket) + "<br><small>" + text.substr(bracket + 1) + "</small>";
+}
+
 std::string comparisonSection(const eval::RunSummary& run) {
   const Comparison table = comparison(run);
-  std::string html = "<h2>Comparison</h2>\n<div class=\"scroll\"><table><thead><tr>";
+  std::string html = "<h2 id=\"comparison\">Comparison</h2>\n<div class=\"scroll\"><table><thead><tr>";
   for (const std::string& column : table.columns) html += "<th scope=\"col\">" + escaped(column) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
@@ -87,9 +94,10 @@ std::string comparisonSection(const eval::RunSummary& run) {
       if (c == 0) {
         html += "<th scope=\"row\">" + text + "</th>";
       } else if (row[c].best) {
-        html += "<td class=\"best\"><span class=\"star\" aria-label=\"best\">\u2605</span> " + text + "</td>";
+        html += "<td class=\"best\"><span class=\"star\" aria-label=\"best\">\u2605</span> " +
+                withSecondLine(text) + "</td>";
       } else {
-        html += "<td>" + text + "</td>";
+        html += "<td>" + withSecondLine(text) + "</td>";
       }
     }
     html += "</tr>\n";
@@ -99,7 +107,8 @@ std::string comparisonSection(const eval::RunSummary& run) {
       "xy, "
       "along, cross and yaw columns are rmse where nothing else is said. NEES of an honest estimator is 2, "
       "inside the bounds in brackets. Gated is the share of usable readings that were rejected.";
-  return html + alignmentNote(run) + "</p>\n";
+  const std::string truth_sigma = truthSigmaNote(run);
+  return html + alignmentNote(run) + (truth_sigma.empty() ? "" : " " + escaped(truth_sigma)) + "</p>\n";
 }
 
 std::string figureSection(const eval::RunSummary& run) {

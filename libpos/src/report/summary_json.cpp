@@ -66,6 +66,7 @@ Json consistencyJson(const eval::EstimatorSummary& estimator) {
   if (estimator.evaluation) {
     const eval::Consistency& found = estimator.evaluation->consistency;
     c = neesInto(neesInto(std::move(c), "nees_xy", found.nees_xy), "nees_pose", found.nees_pose);
+    c["truth_sigma_m"] = number(found.truth_sigma);
     c["without_covariance"] = found.without_covariance;
     c["inside_3_sigma"] = {{"x", number(found.inside_x)},
                            {"y", number(found.inside_y)},

@@ -43,7 +43,7 @@ svg.pos{font:13px system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;
 .pos .grid{stroke:var(--grid);stroke-width:1}.pos .frame{stroke:var(--frame);stroke-width:1;fill:none}
 .pos .zero{stroke:var(--frame);stroke-width:1}
 .pos .curve,.pos polyline{fill:none;stroke-width:1.5;stroke-linejoin:round}
-.pos .thin{stroke-width:1}.pos .thick{stroke-width:3;stroke-linecap:round}.pos .dash{stroke-dasharray:5 4}
+.pos .thin{stroke-width:1}.pos .pale{stroke-opacity:.75}.pos .thick{stroke-width:3;stroke-linecap:round}.pos .dash{stroke-dasharray:5 4}
 .pos .truth{stroke:var(--muted);stroke-opacity:.4;stroke-width:7;fill:none;stroke-linecap:round}
 .pos .inkline{stroke:var(--ink);stroke-width:2}.pos .inkfill{fill:var(--ink)}
 .pos .band{fill:var(--muted);fill-opacity:.2}.pos .anchor{fill:var(--paper);stroke:var(--ink);stroke-width:2}

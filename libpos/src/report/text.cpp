@@ -44,7 +44,7 @@ std::string percent(double fraction) {
 
 std::string tickText(double value) {
   if (!std::isfinite(value)) return std::string(kNoValue);
-  return formatted("%.*g", 6, std::abs(value) < 1e-12 ? 0.0 : value);
+  return formatted("%.*g", 8, std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
 std::string grouped(unsigned long long count) {

@@ -81,6 +81,12 @@ TEST(Configs, DeadReckoningNeedsAKnownStart) {
             "start.mode");
 }
 
+TEST(Configs, DeadReckoningMayStartWhereTheReferenceDoes) {
+  DeadReckoningConfig config;
+  config.start.mode = StartMode::AtTruth;
+  EXPECT_EQ(validated(config), config);
+}
+
 TEST(Configs, SigmasOfAnUnknownStartDoNotMatter) {
   EXPECT_EQ(keyAfter<StartConfig>([](auto& c) { c.yaw_sigma = 0.0; }), "yaw_sigma_deg");
   EXPECT_EQ(keyAfter<StartConfig>([](auto& c) { c.yaw_sigma = 0.0, c.mode = StartMode::UnknownHeading; }),

@@ -55,6 +55,16 @@ TEST(Nees, SigmasTwiceTooSmallAreTooSureByTwo) {
   EXPECT_NEAR(s.sigmaFactor(), 2.0, 0.25);
 }
 
+TEST(Nees, AnExplainingTruthSigmaFillsTheClaimUpToTheErrors) {
+  NeesSummary s;
+  s.dof = 2;
+  s.count = 100;
+  s.mean = 50.0;  // errors of 0.5 m per axis against a claim of 0.1 m
+  EXPECT_NEAR(s.explainingTruthSigma(std::sqrt(2.0) * 0.5), std::sqrt(0.25 - 0.01), 1e-12);
+  s.mean = 1.5;
+  EXPECT_EQ(s.explainingTruthSigma(0.5), 0.0);
+}
+
 TEST(Nees, SigmasTwiceTooLargeAreTooCautious) {
   const NeesSummary s = neesSummary(neesOf(0.5, 0.9, 3000, 1), 2);
   EXPECT_EQ(s.honesty(), Honesty::TooCautious);

@@ -42,6 +42,31 @@ ErrorSeries seriesOf(const std::vector<Estimate>& estimates, const Truth& truth)
 
 }  // namespace
 
+TEST(Errors, TruthSigmaEntersTheNeesAndNothingElse) {
+  const Truth truth = circle(20.0);
+  const Matrix<3, 3> P = Vector<3>(0.03, 0.03, 0.01).asDiagonal();
+  const std::vector<Estimate> estimates = displaced(truth, {0.2, 0.0, 0.1}, P);
+  const ErrorSeries raw = seriesOf(estimates, truth);
+  const ErrorSeries counted = errorSeries(associate(estimates, truth).pairs, {}, truth, {}, 0.1);
+  ASSERT_EQ(raw.size(), counted.size());
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    EXPECT_NEAR(*raw[i].nees_xy, 0.04 / 0.03, 1e-9);
+    EXPECT_NEAR(*counted[i].nees_xy, 0.04 / 0.04, 1e-9);          // 0.1^2 more on each axis
+    EXPECT_NEAR(*counted[i].nees_pose, 1.0 + 0.01 / 0.01, 1e-9);  // the heading is not touched
+    EXPECT_EQ(counted[i].x.sigma, raw[i].x.sigma);
+    EXPECT_EQ(counted[i].xy, raw[i].xy);
+  }
+}
+
+TEST(Errors, ACovarianceThatClaimsNothingHasNoNeesWithATruthSigmaEither) {
+  const Truth truth = circle(20.0);
+  const std::vector<Estimate> estimates = displaced(truth, {0.2, 0.0, 0.1}, Matrix<3, 3>::Zero());
+  for (const ErrorSample& sample : errorSeries(associate(estimates, truth).pairs, {}, truth, {}, 0.1)) {
+    EXPECT_FALSE(sample.nees_xy);
+    EXPECT_FALSE(sample.nees_pose);
+  }
+}
+
 TEST(Errors, SplitsAlongAndAcrossOnACircle) {
   const Truth truth = circle(100.0);
   const Matrix<3, 3> P = Vector<3>(0.04, 0.09, 0.01).asDiagonal();

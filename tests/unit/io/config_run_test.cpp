@@ -39,7 +39,7 @@ TEST(ConfigRun, EveryKeyReachesItsMember) {
   EXPECT_EQ(run.seed, 18446744073709551615ULL);
   EXPECT_EQ(run.faults, (FaultConfig{0.2, 4.0, 21.0, 5}));
   EXPECT_EQ(run.sensors, (std::vector<SensorConfig>{{"UWB", false, 0.05}, {"laser front", true, 0.0}}));
-  EXPECT_EQ(run.evaluation, (EvaluationConfig{EvaluationConfig::Align::PosYaw, 3.0, 2.0, -0.1}));
+  EXPECT_EQ(run.evaluation, (EvaluationConfig{EvaluationConfig::Align::PosYaw, 3.0, 2.0, -0.1, 0.15}));
   ASSERT_EQ(run.estimators.size(), 4u);
   const auto& range_odometry = std::get<RangeOdometryConfig>(run.estimators[1].config);
   EXPECT_EQ(range_odometry.motion, RangeOdometryConfig::Motion::ConstantVelocity);

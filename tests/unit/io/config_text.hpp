@@ -17,7 +17,7 @@ faults: {range_outlier_probability: 0.2, range_outlier_min_m: 4, range_outlier_m
 sensors:
   - {sensor: UWB, use: false, latency_s: 0.05}
   - sensor: "laser front"
-evaluation: {align: posyaw, skip_start_s: 3, max_gap_s: 2, truth_time_offset_s: -0.1}
+evaluation: {align: posyaw, skip_start_s: 3, max_gap_s: 2, truth_time_offset_s: -0.1, truth_sigma_m: 0.15}
 estimators:
   - name: odometry
     type: dead_reckoning

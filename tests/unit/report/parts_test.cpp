@@ -65,6 +65,10 @@ TEST(Axes, TicksAreRoundAndInside) {
   EXPECT_THAT(niceTicks(0.0, 10.0, 5), ElementsAre(0.0, 2.0, 4.0, 6.0, 8.0, 10.0));
   EXPECT_EQ(plotOver({0, 0, 100, 50}, 0.0, 1.0, -1.9, 1.9).y.ticks(2).size(), 3U);  // never zero alone
   EXPECT_TRUE(niceTicks(1.0, 1.0, 5).empty());
+  EXPECT_THAT(logPlotOver({0, 0, 100, 50}, 0.0, 1.0, 0.05, 3.0).y.ticks(6),
+              ElementsAre(0.05, 0.1, 0.2, 0.5, 1.0, 2.0));
+  EXPECT_THAT(logPlotOver({0, 0, 100, 50}, 0.0, 1.0, 0.01, 1e5).y.ticks(2),
+              ElementsAre(0.01, 1.0, 100.0, 1e4));
   const auto decades = logTicks(0.01, 100.0);
   ASSERT_EQ(decades.size(), 5U);
   EXPECT_NEAR(decades.front(), 0.01, 1e-12);
@@ -141,6 +145,17 @@ TEST(Comparison, WarnsInPlainWords) {
               testing::Contains(HasSubstr("damaged: reading ended at byte 1 234 567 after 18 000 objects")));
   EXPECT_THAT(all, testing::Contains(HasSubstr("mcl is too sure of itself by a factor ~2.")));
   EXPECT_THAT(all, testing::Not(testing::Contains(HasSubstr("range_odometry"))));
+}
+
+TEST(Comparison, SaysWhatAnImperfectTruthWouldExplainUntilItIsCounted) {
+  eval::RunSummary run = demoRun();
+  EXPECT_THAT(warnings(run),
+              testing::Contains(testing::ContainsRegex("truth was taken as perfect.*mcl 0\\.2[0-9] m")));
+  EXPECT_THAT(comparisonTable(run), testing::Not(HasSubstr("NEES counts the truth")));
+  for (eval::EstimatorSummary& estimator : run.estimators)
+    estimator.evaluation->consistency.truth_sigma = 0.1;
+  EXPECT_THAT(warnings(run), testing::Not(testing::Contains(HasSubstr("truth was taken as perfect"))));
+  EXPECT_THAT(comparisonTable(run), HasSubstr("NEES counts the truth as good to 0.100 m per axis"));
 }
 
 TEST(Comparison, WarnsBelowNinetyFivePercentCoverage) {

@@ -34,6 +34,9 @@ struct NeesSummary {
   Honesty honesty() const;
   /// sqrt(mean / dof): the claimed sigmas would have to be multiplied by this.
   double sigmaFactor() const;
+  /// How wrong (m per axis) a truth would be that alone explains a mean NEES above its expected value, given
+  /// the xy rmse; 0 where there is nothing to explain. Good for errors and claims that vary little.
+  double explainingTruthSigma(double rmse_xy) const;
 };
 
 /// Summary of a NEES series with `dof` degrees of freedom each.
@@ -51,6 +54,7 @@ std::optional<double> fractionInside3Sigma(const ErrorSeries& series, Component 
 struct Consistency {
   NeesSummary nees_xy;
   NeesSummary nees_pose;
+  double truth_sigma = 0.0;  ///< m per axis, counted into the NEES for the truth; 0: a perfect truth
   std::size_t without_covariance = 0;  ///< samples whose xy covariance cannot be inverted
   std::optional<double> inside_x;      ///< shares inside 3 sigma
   std::optional<double> inside_y;

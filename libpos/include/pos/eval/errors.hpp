@@ -30,16 +30,18 @@ struct ErrorSample {
   std::optional<ScalarError> cross;  ///< positive to the left of the truth's motion
   std::optional<ScalarError> yaw;    ///< wrapped, where the truth has a heading
   double xy = 0.0;                   ///< horizontal distance
-  /// e^T P^-1 e of [x y] (2 dof) and [x y yaw] (3 dof); nothing where P cannot be inverted.
+  /// e^T P^-1 e of [x y] (2 dof) and [x y yaw] (3 dof); nothing where P cannot be inverted. P includes what
+  /// the truth's own position is uncertain by, where that was given.
   std::optional<double> nees_xy;
   std::optional<double> nees_pose;
 };
 
 using ErrorSeries = std::vector<ErrorSample>;
 
-/// The errors of all pairs after `alignment`.
+/// The errors of all pairs after `alignment`. `truth_sigma` (m, per horizontal axis) is how good the truth
+/// is; its square is added to the claimed position covariance for the NEES and nowhere else.
 ErrorSeries errorSeries(const std::vector<MatchedPose>& pairs, const Alignment& alignment, const Truth& truth,
-                        const PathTangentOptions& tangent = {});
+                        const PathTangentOptions& tangent = {}, double truth_sigma = 0.0);
 
 /// Which error of a sample is meant.
 enum class Component { Xy, X, Y, Z, Along, Cross, Yaw };

@@ -106,6 +106,7 @@ struct EvaluationOptions {
   AlignmentMode alignment = AlignmentMode::None;
   PathTangentOptions tangent;  ///< its max_truth_gap is taken from `association`
   RelativeErrorOptions relative;
+  double truth_sigma = 0.0;        ///< m per axis, the truth's own; enters the NEES only
   std::size_t plot_points = 2000;  ///< most points of one drawn series
 };
 

@@ -69,6 +69,7 @@ struct EvaluationConfig {
   double skip_start = 0.0;         ///< s, not judged at the beginning
   double max_gap = 1.0;            ///< s, truth is not interpolated over a longer gap
   double truth_time_offset = 0.0;  ///< s, added to the stamps of the truth
+  double truth_sigma = 0.0;        ///< m per axis, how good the truth is; enters the NEES only
 
   bool operator==(const EvaluationConfig&) const = default;
 };

@@ -22,6 +22,7 @@ struct Scale {
   bool logarithmic = false;
 
   double operator()(double value) const;
+  /// About `wanted` round values. Logarithmic: powers of ten, with 2 and 5 between where there are few.
   std::vector<double> ticks(int wanted) const;
 };
 
@@ -50,7 +51,7 @@ void drawAxes(Svg& svg, const Plot& plot, const AxisLabels& labels);
 struct LegendEntry {
   std::string text;
   std::string classes;
-  enum class Sign { Line, Square, Band } sign = Sign::Line;
+  enum class Sign { Line, Square, Triangle, Band } sign = Sign::Line;
 };
 
 /// Entries from left to right, wrapped to `width`; returns the height used.

@@ -23,6 +23,9 @@ Comparison comparison(const eval::RunSummary& run);
 /// The comparison as aligned text; '*' marks the best of a column.
 std::string comparisonTable(const eval::RunSummary& run);
 
+/// One line that says how good the truth was taken to be; empty when it was taken as perfect.
+std::string truthSigmaNote(const eval::RunSummary& run);
+
 /// What a reader must know before trusting the figures, one sentence or two each: damaged log, missing truth,
 /// coverage below 95 %, NEES outside its bounds, many gated readings, slower than real time.
 std::vector<std::string> warnings(const eval::RunSummary& run);
