@@ -9,6 +9,7 @@
 #include "pos/report/figures.hpp"
 #include "pos/report/html.hpp"
 #include "pos/report/summary_json.hpp"
+#include "pos/report/text.hpp"
 
 namespace pos::app {
 namespace {
@@ -40,14 +41,16 @@ void addOutputs(CLI::App& verb, OutputOptions& options) {
   verb.add_flag("--json", options.json, "Print the summary as JSON on standard output");
   verb.add_option("--out", options.folder, "Folder for run.json, trajectories, summary.json and report.html");
   verb.add_flag("--force", options.force, "Replace the files of an earlier run in --out");
-  verb.add_option("--require", options.requirements, "Limit to keep, e.g. 'p95_xy<1.0'; exit code 4 when missed")
+  verb.add_option("--require", options.requirements,
+                  "Limit to keep, e.g. 'p95_xy<1.0'; exit code 4 when missed")
       ->take_all()
       ->allow_extra_args(false);
 }
 
 std::optional<io::RunFolder> openRunFolder(const OutputOptions& options) {
   if (options.folder.empty()) return std::nullopt;
-  return io::RunFolder::create(options.folder, options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
+  return io::RunFolder::create(options.folder,
+                               options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
 }
 
 void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
@@ -56,10 +59,12 @@ void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::Run
   writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
   const fs::path figures = folder.path() / "figures";
   fs::create_directories(figures);
-  for (const report::NamedFigure& figure : report::figures(summary)) writeFile(figures / (figure.name + ".svg"), figure.svg);
+  for (const report::NamedFigure& figure : report::figures(summary))
+    writeFile(figures / (figure.name + ".svg"), figure.svg);
 }
 
-void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder, const Voice& voice) {
+void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,
+          const Voice& voice) {
   for (const std::string& warning : report::warnings(summary)) voice.say("note: " + warning);
   if (options.json) {
     print(report::summaryJson(summary));
@@ -69,15 +74,51 @@ void show(const eval::RunSummary& summary, const OutputOptions& options, const i
   if (folder != nullptr) voice.say("report: " + folder->reportHtml().string());
 }
 
-void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements, const Voice& voice) {
-  std::string missed;
+void requireCommonTime(const Span& truth, const Span& other, const std::string& what) {
+  if (truth.from <= other.to && truth.to >= other.from) return;
+  const auto text = [](const Span& span) {
+    return report::momentText(span.from) + " to " + report::momentText(span.to);
+  };
+  throw DataError(
+      Complaint{.what = "the truth and " + what + " have no moment in common, so nothing could be judged",
+                .got = "truth " + text(truth) + "; " + what + " " + text(other),
+                .expected = "two recordings of the same time, on the same clock",
+                .suggestion = "name the truth of this log; where only the clocks differ, give the offset "
+                              "(evaluation.truth_time_offset_s, or --time-offset-s of pos evaluate)"});
+}
+
+void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
+                       const Voice& voice) {
+  std::size_t checked = 0;
+  std::vector<std::string> missed;
   for (const std::string& text : requirements) {
-    for (const eval::RequirementResult& result : eval::check(eval::parseRequirement(text, summary), summary)) {
-      voice.say(result.line);
-      if (!result.passed) missed += (missed.empty() ? "" : "; ") + result.line;
+    for (const eval::RequirementResult& result :
+         eval::check(eval::parseRequirement(text, summary), summary)) {
+      ++checked;
+      if (result.passed) voice.say(result.line);
+      if (!result.passed) missed.push_back(result.line);
     }
   }
-  if (!missed.empty()) throw RequirementMissed(Complaint{.what = "a requirement was missed", .got = missed});
+  if (missed.empty()) return;
+  std::string lines;
+  for (const std::string& line : missed) lines += (lines.empty() ? "" : "\n            ") + line;
+  throw RequirementMissed(Complaint{
+      .what = std::to_string(missed.size()) + " of " + std::to_string(checked) + " required limits missed",
+      .got = lines});
+}
+
+void refuseUnknownMetrics(const std::vector<std::string>& requirements,
+                          const std::vector<std::string>& estimators) {
+  eval::RunSummary nothing_yet;
+  for (const std::string& name : estimators) {
+    nothing_yet.estimators.emplace_back();
+    nothing_yet.estimators.back().name = name;
+  }
+  for (const std::string& text : requirements) {
+    const bool names_a_sensor =
+        text.find("nis_") != std::string::npos || text.find("sensors.") != std::string::npos;
+    if (!names_a_sensor) (void)eval::parseRequirement(text, nothing_yet);
+  }
 }
 
 }  // namespace pos::app

@@ -27,13 +27,16 @@ struct CsvOptions {
 void sayCounts(const io::ImportResult& result, const Voice& voice) {
   for (const io::TableCount& table : result.counts.tables) {
     voice.say(table.file + ": " + std::to_string(table.rows) + " rows of " + table.kind +
-              (table.skipped > 0 ? ", " + std::to_string(table.skipped) + " left out (" + table.first_skipped + ")" : ""));
+              (table.skipped > 0
+                   ? ", " + std::to_string(table.skipped) + " left out (" + table.first_skipped + ")"
+                   : ""));
   }
   if (result.counts.outliers_injected > 0) {
     voice.say("outliers put in on purpose: " + std::to_string(result.counts.outliers_injected));
   }
   if (result.counts.ranges_to_unknown_anchors > 0) {
-    voice.warn(std::to_string(result.counts.ranges_to_unknown_anchors) + " ranges are to anchors that the map does not have");
+    voice.warn(std::to_string(result.counts.ranges_to_unknown_anchors) +
+               " ranges are to anchors that the map does not have");
   }
 }
 
@@ -47,7 +50,8 @@ ExitCode convertCsv(const CsvOptions& options, const Voice& voice) {
   io::saveMap(result.map, folder / "map.yaml");
   if (result.truth) io::writeTum(folder / "truth.tum", *result.truth);
   sayCounts(result, voice);
-  voice.say("written: " + (folder / "log.rawlog").string() + ", map.yaml" + (result.truth ? ", truth.tum" : ""));
+  voice.say("written: " + (folder / "log.rawlog").string() + ", map.yaml" +
+            (result.truth ? ", truth.tum" : ""));
   return ExitCode::Ok;
 }
 
@@ -57,8 +61,10 @@ ExitCode convertLog(const std::string& in, const std::string& out, const Voice& 
   std::uint64_t count = 0;
   for (; auto measurement = reader.next(); ++count) writer.write(*measurement);
   writer.close();
-  for (const auto& [what, n] : reader.skipped()) voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);
-  for (const auto& [what, n] : reader.refused()) voice.warn("not converted: " + std::to_string(n) + " x " + what);
+  for (const auto& [what, n] : reader.skipped())
+    voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);
+  for (const auto& [what, n] : reader.refused())
+    voice.warn("not converted: " + std::to_string(n) + " x " + what);
   voice.say(std::to_string(count) + " measurements written to " + out);
   if (reader.end().damaged) voice.warn("the source is damaged: " + reader.end().message);
   return reader.end().damaged ? ExitCode::Data : ExitCode::Ok;
@@ -83,29 +89,42 @@ ExitCode convertTrajectory(const std::string& in, const std::string& out, const 
 }
 
 ExitCode convertMap(const std::string& in, const std::string& out) {
-  const map::TunnelMap map = io::loadMap(in, mrptShare(), [](const fs::path& file) { return io::loadGrid(file.string()); });
+  const map::TunnelMap map =
+      io::loadMap(in, mrptShare(), [](const fs::path& file) { return io::loadGrid(file.string()); });
   if (out.ends_with(".beaconmap")) {
     io::saveBeaconMap(map, out);
+  } else if (!out.ends_with(".gridmap.gz") && !out.ends_with(".gridmap")) {
+    throw UsageError(Complaint{.what = "the ending does not tell what to write",
+                               .key = "--out",
+                               .got = out,
+                               .expected = "*.beaconmap for the anchors, *.gridmap.gz for the grid"});
   } else if (map.grid) {
     io::saveMrptGrid(*map.grid, out);
   } else {
-    throw ConfigError(Complaint{.what = "the map has no grid to write", .place = {.file = in}, .suggestion = "write its anchors to a .beaconmap"});
+    throw ConfigError(Complaint{.what = "the map has no grid to write",
+                                .place = {.file = in},
+                                .suggestion = "write its anchors to a .beaconmap"});
   }
   return ExitCode::Ok;
 }
 
 void addCsv(CLI::App& parent, const Verbs& verbs) {
-  CLI::App* verb = parent.add_subcommand("csv", "A folder of CSV tables into log.rawlog, map.yaml and truth.tum");
+  CLI::App* verb =
+      parent.add_subcommand("csv", "A folder of CSV tables into log.rawlog, map.yaml and truth.tum");
   auto options = std::make_shared<CsvOptions>();
-  verb->add_option("mapping", options->mapping, "Mapping file: which column is what, in which unit")->required();
+  verb->add_option("mapping", options->mapping, "Mapping file: which column is what, in which unit")
+      ->required();
   verb->add_option("--data", options->data, "Folder with the tables")->required();
   verb->add_option("--out", options->out, "Folder to write to")->required();
   options->import.range_outlier_min_m = 3.0;
   options->import.range_outlier_max_m = 20.0;
   verb->add_option("--range-outliers", options->import.range_outlier_probability,
-                   "Share of ranges to spoil on purpose, 0 to 1")->check(CLI::Range(0.0, 1.0));
-  verb->add_option("--outlier-min-m", options->import.range_outlier_min_m, "Smallest error put in (default 3)");
-  verb->add_option("--outlier-max-m", options->import.range_outlier_max_m, "Largest error put in (default 20)");
+                   "Share of ranges to spoil on purpose, 0 to 1")
+      ->check(CLI::Range(0.0, 1.0));
+  verb->add_option("--outlier-min-m", options->import.range_outlier_min_m,
+                   "Smallest error put in (default 3)");
+  verb->add_option("--outlier-max-m", options->import.range_outlier_max_m,
+                   "Largest error put in (default 20)");
   verb->add_option("--seed", options->import.seed, "Seed of the errors");
   addVoice(*verb, *verbs.voice);
   verb->callback([options, verbs] { *verbs.code = convertCsv(*options, *verbs.voice); });
@@ -136,14 +155,17 @@ void addConvert(const Verbs& verbs) {
   addVoice(*log, *verbs.voice);
   log->callback([logs, verbs] { *verbs.code = convertLog(logs->in, logs->out, *verbs.voice); });
 
-  CLI::App* trajectory = verb->add_subcommand("trajectory", "TUM, TUM with covariance, or <estimator>.csv into another of these");
+  CLI::App* trajectory = verb->add_subcommand(
+      "trajectory", "TUM, TUM with covariance, or <estimator>.csv into another of these");
   const auto trajectories = addInOut(*trajectory, "Trajectory to read", "Trajectory to write");
-  trajectory->add_option("--to", trajectories->to, "Format to write")->check(CLI::IsMember({"tum", "tum_covariance", "csv"}));
+  trajectory->add_option("--to", trajectories->to, "Format to write")
+      ->check(CLI::IsMember({"tum", "tum_covariance", "csv"}));
   trajectory->callback([trajectories, verbs] {
     *verbs.code = convertTrajectory(trajectories->in, trajectories->out, trajectories->to);
   });
 
-  CLI::App* map = verb->add_subcommand("map", "map.yaml into MRPT's .beaconmap (anchors) or .gridmap.gz (grid)");
+  CLI::App* map =
+      verb->add_subcommand("map", "map.yaml into MRPT's .beaconmap (anchors) or .gridmap.gz (grid)");
   const auto maps = addInOut(*map, "Map to read", "File to write: *.beaconmap or *.gridmap.gz");
   map->callback([maps, verbs] { *verbs.code = convertMap(maps->in, maps->out); });
 }

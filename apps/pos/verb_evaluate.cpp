@@ -1,6 +1,5 @@
 /// `pos evaluate`: trajectories against a truth, whoever made them.
 
-#include <fstream>
 #include <memory>
 
 #include "outputs.hpp"
@@ -35,8 +34,16 @@ eval::AlignmentMode alignmentMode(const std::string& word) {
   throw ContractError("alignment mode was checked before");
 }
 
+void requireEstimates(const std::vector<Estimate>& estimates, const std::string& path) {
+  if (!estimates.empty()) return;
+  throw DataError(Complaint{.what = "the trajectory holds no pose",
+                            .place = {.file = path},
+                            .suggestion = "check that the run that wrote it got as far as a first estimate"});
+}
+
 ExitCode runEvaluate(const Options& options, const Voice& voice) {
-  const Truth truth = options.truth_format == "euroc" ? io::readEurocTruth(options.truth) : io::readTumTruth(options.truth);
+  const Truth truth =
+      options.truth_format == "euroc" ? io::readEurocTruth(options.truth) : io::readTumTruth(options.truth);
   eval::EvaluationOptions evaluation;
   evaluation.alignment = alignmentMode(options.align);
   evaluation.association.time_offset = durationFromSeconds(options.time_offset);
@@ -54,6 +61,10 @@ ExitCode runEvaluate(const Options& options, const Voice& voice) {
     record.name = fs::path(path).stem().string();
     record.type = "trajectory";
     record.estimates = readTrajectory(path);
+    requireEstimates(record.estimates, path);
+    const Stamp first = record.estimates.front().stamp + evaluation.association.time_offset;
+    const Stamp last = record.estimates.back().stamp + evaluation.association.time_offset;
+    requireCommonTime({summary.start, summary.end}, {first, last}, path);
     summary.estimators.push_back(eval::summarise(record, &truth, summary.start, evaluation));
   }
   if (!options.outputs.folder.empty()) {
@@ -70,15 +81,20 @@ ExitCode runEvaluate(const Options& options, const Voice& voice) {
 }  // namespace
 
 void addEvaluate(const Verbs& verbs) {
-  CLI::App* verb = verbs.app->add_subcommand("evaluate", "Judge recorded trajectories against reference poses");
+  CLI::App* verb =
+      verbs.app->add_subcommand("evaluate", "Judge recorded trajectories against reference poses");
   auto options = std::make_shared<Options>();
-  verb->add_option("trajectory", options->trajectories, "TUM files (8 or 20 columns) or <estimator>.csv of a run folder")
+  verb->add_option("trajectory", options->trajectories,
+                   "TUM files (8 or 20 columns) or <estimator>.csv of a run folder")
       ->required();
   verb->add_option("--truth", options->truth, "Reference poses")->required();
-  verb->add_option("--truth-format", options->truth_format, "Format of --truth")->check(CLI::IsMember({"tum", "euroc"}));
-  verb->add_option("--align", options->align, "Lay the estimate on the truth first (default: none, the map frame counts)")
+  verb->add_option("--truth-format", options->truth_format, "Format of --truth")
+      ->check(CLI::IsMember({"tum", "euroc"}));
+  verb->add_option("--align", options->align,
+                   "Lay the estimate on the truth first (default: none, the map frame counts)")
       ->check(CLI::IsMember({"none", "origin", "se2", "se3", "posyaw"}));
-  verb->add_option("--time-offset-s", options->time_offset, "Added to the estimates' stamps before the truth is asked");
+  verb->add_option("--time-offset-s", options->time_offset,
+                   "Added to the estimates' stamps before the truth is asked");
   verb->add_option("--max-gap-s", options->max_gap, "Longest gap of the truth that is interpolated over");
   addOutputs(*verb, options->outputs);
   addVoice(*verb, *verbs.voice);

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "pos/core/error.hpp"
@@ -140,8 +140,8 @@ double variance(const CsvReader& csv, std::size_t column, double unit) {
 
 namespace {
 
-/// TUM has no way to say "not measured": a file in which every orientation is the identity holds none, and one in
-/// which every height is exactly zero is a plan.
+/// TUM has no way to say "not measured": a file in which every orientation is the identity holds none, and
+/// one in which every height is exactly zero is a plan.
 Truth withKnownParts(Truth truth) {
   const auto turned = [](const TruthPose& pose) { return !pose.T_map_body.rotation.vec().isZero(0.0); };
   const auto raised = [](const TruthPose& pose) { return pose.T_map_body.translation.z() != 0.0; };
@@ -178,14 +178,15 @@ Truth readEurocTruth(const std::filesystem::path& path) {
   return truth;
 }
 
-Truth readIndexTruth(const std::filesystem::path& path, const std::vector<Stamp>& stamps,
-                     const Pose2& T_map_truth) {
+Truth readIndexTruth(const std::filesystem::path& path, const FrameStamps& frames, const Pose2& T_map_truth) {
+  const std::vector<Stamp>& stamps = frames.stamps;
   NumberRows rows(path, NumberRows::Separator::Blank);
   Truth truth;
   truth.has_z = false;
   while (rows.next()) {
     rows.requireSize(rows.size() == 4, "4 values: index x y phi");
     const std::size_t row = truth.poses.size();
+    if (row >= stamps.size() && !frames.complete) break;  // the log lost the rest
     if (row >= stamps.size()) {
       rows.refuse("more truth rows than frames in the log", "row " + std::to_string(row),
                   std::to_string(stamps.size()) + " rows");
