@@ -8,6 +8,14 @@
 
 namespace pos::app {
 
+/// For options that take a count or a seed.
+inline const CLI::Validator kWholeNumber{
+    [](std::string& text) {
+      const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+      return digits ? std::string{} : "'" + text + "' is not a whole number from 0 on";
+    },
+    ""};
+
 /// Documented in docs/reference/command_line.md. 1 to 5 come from pos::Error::exitCode().
 enum class ExitCode { Ok = 0, Internal = 1, Usage = 2, Config = 3, Missed = 4, Data = 5, Interrupted = 130 };
 

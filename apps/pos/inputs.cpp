@@ -15,20 +15,50 @@ namespace {
 using Format = io::TruthSource::Format;
 namespace fs = std::filesystem;
 
+Format formatOf(const std::string& word) {
+  if (word == "euroc") return Format::Euroc;
+  if (word == "mrpt_index") return Format::MrptIndex;
+  return word == "log" ? Format::Log : Format::Tum;
+}
+
+/// `--truth` replaces the configuration's truth, placement included; `--truth-format log` needs no file.
+void applyTruth(const InputOptions& options, io::RunConfig& config) {
+  const bool in_log = options.truth_format == "log";
+  if (in_log && options.truth.empty()) {
+    config.truth = io::TruthSource{{}, Format::Log, {}};
+  } else if (!options.truth.empty() && !in_log) {
+    config.truth = io::TruthSource{fs::absolute(options.truth), formatOf(options.truth_format), {}};
+  } else if (!options.truth_format.empty()) {
+    throw UsageError(
+        Complaint{.what = in_log ? "--truth-format log takes the poses in the log, so no --truth goes with it"
+                                 : "--truth-format describes a file, and no --truth names one",
+                  .key = "--truth-format",
+                  .got = options.truth_format,
+                  .suggestion = in_log ? "leave --truth out" : "add --truth FILE"});
+  }
+}
+
+/// Every file by name before any is read, so that a wrong path is told with the key it stands under.
+void requireFiles(const InputOptions& options, const io::RunConfig& config) {
+  const auto require = [&](const fs::path& file, bool on_command_line, const std::string& option,
+                           const std::string& key) {
+    const std::string place = on_command_line ? option : options.config;
+    io::existingFile(file, Complaint{.place = {.file = place}, .key = on_command_line ? "" : key});
+  };
+  if (config.map) require(*config.map, !options.map.empty(), "--map", "map");
+  try {
+    require(config.log->file, !options.log.empty(), "--log", "log.file");
+    if (config.truth && config.truth->file)
+      require(*config.truth->file, !options.truth.empty(), "--truth", "truth.file");
+  } catch (const ConfigError& missing) {
+    throw DataError(missing.complaint());  // the configuration may be in order; the recording is not there
+  }
+}
+
 void applyCommandLine(const InputOptions& options, io::RunConfig& config) {
   if (!options.log.empty()) config.log = io::LogSource{fs::absolute(options.log)};
   if (!options.map.empty()) config.map = fs::absolute(options.map);
-  if (!options.truth.empty()) config.truth = io::TruthSource{fs::absolute(options.truth), Format::Tum, {}};
-  if (config.truth && !options.truth_format.empty()) {
-    const std::vector<std::pair<std::string, Format>> names{{"tum", Format::Tum},
-                                                            {"euroc", Format::Euroc},
-                                                            {"mrpt_index", Format::MrptIndex},
-                                                            {"log", Format::Log}};
-    for (const auto& [name, format] : names) {
-      if (name == options.truth_format) config.truth->format = format;
-    }
-  }
-  if (options.seed) config.seed = *options.seed;
+  applyTruth(options, config);
   if (!config.log) {
     throw UsageError(Complaint{.what = "no log to replay",
                                .place = {.file = options.config},
@@ -102,7 +132,8 @@ void addInputs(CLI::App& verb, InputOptions& options) {
                   "key=value laid over the configuration, e.g. estimators.ekf.range_sigma_m=0.3")
       ->take_all()
       ->allow_extra_args(false);
-  verb.add_option("--seed", options.seed, "Seed of everything random in the run");
+  verb.add_option("--seed", options.seed, "Seed of the run; estimators with a seed of their own keep it")
+      ->check(kWholeNumber);
 }
 
 std::optional<Truth> loadTruth(const io::RunConfig& config) {
@@ -115,20 +146,15 @@ std::optional<Truth> loadTruth(const io::RunConfig& config) {
 
 Inputs loadInputs(const InputOptions& options) {
   Inputs inputs;
-  inputs.config = io::loadRunConfig(options.config, options.overrides, mrptShare());
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  inputs.config = io::loadRunConfig(options.config, overrides, mrptShare());
   applyCommandLine(options, inputs.config);
-  io::existingFile(inputs.config.log->file, Complaint{.place = {.file = options.config}, .key = "log.file"});
+  requireFiles(options, inputs.config);
   inputs.map = std::make_shared<const map::TunnelMap>(mapOf(inputs.config));
   inputs.truth = loadTruth(inputs.config);
   for (io::EstimatorEntry& entry : inputs.config.estimators) {
     std::visit([&](auto& config) { spellOutStart(config.start, inputs.truth, entry.name); }, entry.config);
-    if (options.seed) {
-      std::visit(
-          [&](auto& config) {
-            if constexpr (requires { config.seed; }) config.seed = *options.seed;
-          },
-          entry.config);
-    }
   }
   inputs.config =
       io::validated(std::move(inputs.config));  // a start that was spelt out may not suit its estimator

@@ -27,9 +27,8 @@ struct InputOptions {
 
 void addInputs(CLI::App& verb, InputOptions& options);
 
-/// Everything loaded and checked. `config` is resolved: absolute paths, the command line's choices, the run's
-/// seed handed to every estimator that draws random numbers and has none of its own, starts taken from the
-/// truth spelt out.
+/// Everything loaded and checked. `config` is resolved: absolute paths, the command line's choices, starts
+/// taken from the truth spelt out.
 struct Inputs {
   io::RunConfig config;
   std::shared_ptr<const map::TunnelMap> map;

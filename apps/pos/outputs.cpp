@@ -9,6 +9,7 @@
 #include "pos/report/figures.hpp"
 #include "pos/report/html.hpp"
 #include "pos/report/summary_json.hpp"
+#include "pos/report/text.hpp"
 
 namespace pos::app {
 namespace {
@@ -73,17 +74,51 @@ void show(const eval::RunSummary& summary, const OutputOptions& options, const i
   if (folder != nullptr) voice.say("report: " + folder->reportHtml().string());
 }
 
+void requireCommonTime(const Span& truth, const Span& other, const std::string& what) {
+  if (truth.from <= other.to && truth.to >= other.from) return;
+  const auto text = [](const Span& span) {
+    return report::momentText(span.from) + " to " + report::momentText(span.to);
+  };
+  throw DataError(
+      Complaint{.what = "the truth and " + what + " have no moment in common, so nothing could be judged",
+                .got = "truth " + text(truth) + "; " + what + " " + text(other),
+                .expected = "two recordings of the same time, on the same clock",
+                .suggestion = "name the truth of this log; where only the clocks differ, give the offset "
+                              "(evaluation.truth_time_offset_s, or --time-offset-s of pos evaluate)"});
+}
+
 void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
                        const Voice& voice) {
-  std::string missed;
+  std::size_t checked = 0;
+  std::vector<std::string> missed;
   for (const std::string& text : requirements) {
     for (const eval::RequirementResult& result :
          eval::check(eval::parseRequirement(text, summary), summary)) {
-      voice.say(result.line);
-      if (!result.passed) missed += (missed.empty() ? "" : "; ") + result.line;
+      ++checked;
+      if (result.passed) voice.say(result.line);
+      if (!result.passed) missed.push_back(result.line);
     }
   }
-  if (!missed.empty()) throw RequirementMissed(Complaint{.what = "a requirement was missed", .got = missed});
+  if (missed.empty()) return;
+  std::string lines;
+  for (const std::string& line : missed) lines += (lines.empty() ? "" : "\n            ") + line;
+  throw RequirementMissed(Complaint{
+      .what = std::to_string(missed.size()) + " of " + std::to_string(checked) + " required limits missed",
+      .got = lines});
+}
+
+void refuseUnknownMetrics(const std::vector<std::string>& requirements,
+                          const std::vector<std::string>& estimators) {
+  eval::RunSummary nothing_yet;
+  for (const std::string& name : estimators) {
+    nothing_yet.estimators.emplace_back();
+    nothing_yet.estimators.back().name = name;
+  }
+  for (const std::string& text : requirements) {
+    const bool names_a_sensor =
+        text.find("nis_") != std::string::npos || text.find("sensors.") != std::string::npos;
+    if (!names_a_sensor) (void)eval::parseRequirement(text, nothing_yet);
+  }
 }
 
 }  // namespace pos::app

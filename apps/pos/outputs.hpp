@@ -31,8 +31,22 @@ void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::Run
 void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,
           const Voice& voice);
 
+/// A stretch of time: of the truth, of a log, of a trajectory.
+struct Span {
+  Stamp from;
+  Stamp to;
+};
+/// Throws DataError when truth and `what` have no moment in common: such a truth judges nothing, and its
+/// empty columns must not pass for a result.
+void requireCommonTime(const Span& truth, const Span& other, const std::string& what);
+
 /// Says how each requirement fared; throws RequirementMissed when one was missed.
 void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
                        const Voice& voice);
+
+/// Throws UsageError for a requirement that no run of these estimators could answer, before the work is done.
+/// Figures of a sensor are left for later: only the log tells its sensors.
+void refuseUnknownMetrics(const std::vector<std::string>& requirements,
+                          const std::vector<std::string>& estimators);
 
 }  // namespace pos::app

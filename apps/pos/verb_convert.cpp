@@ -93,6 +93,11 @@ ExitCode convertMap(const std::string& in, const std::string& out) {
       io::loadMap(in, mrptShare(), [](const fs::path& file) { return io::loadGrid(file.string()); });
   if (out.ends_with(".beaconmap")) {
     io::saveBeaconMap(map, out);
+  } else if (!out.ends_with(".gridmap.gz") && !out.ends_with(".gridmap")) {
+    throw UsageError(Complaint{.what = "the ending does not tell what to write",
+                               .key = "--out",
+                               .got = out,
+                               .expected = "*.beaconmap for the anchors, *.gridmap.gz for the grid"});
   } else if (map.grid) {
     io::saveMrptGrid(*map.grid, out);
   } else {

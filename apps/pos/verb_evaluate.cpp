@@ -1,6 +1,5 @@
 /// `pos evaluate`: trajectories against a truth, whoever made them.
 
-#include <fstream>
 #include <memory>
 
 #include "outputs.hpp"
@@ -36,6 +35,13 @@ eval::AlignmentMode alignmentMode(const std::string& word) {
   throw ContractError("alignment mode was checked before");
 }
 
+void requireEstimates(const std::vector<Estimate>& estimates, const std::string& path) {
+  if (!estimates.empty()) return;
+  throw DataError(Complaint{.what = "the trajectory holds no pose",
+                            .place = {.file = path},
+                            .suggestion = "check that the run that wrote it got as far as a first estimate"});
+}
+
 ExitCode runEvaluate(const Options& options, const Voice& voice) {
   const Truth truth =
       options.truth_format == "euroc" ? io::readEurocTruth(options.truth) : io::readTumTruth(options.truth);
@@ -57,6 +63,10 @@ ExitCode runEvaluate(const Options& options, const Voice& voice) {
     record.name = fs::path(path).stem().string();
     record.type = "trajectory";
     record.estimates = readTrajectory(path);
+    requireEstimates(record.estimates, path);
+    const Stamp first = record.estimates.front().stamp + evaluation.association.time_offset;
+    const Stamp last = record.estimates.back().stamp + evaluation.association.time_offset;
+    requireCommonTime({summary.start, summary.end}, {first, last}, path);
     summary.estimators.push_back(eval::summarise(record, &truth, summary.start, evaluation));
   }
   if (!options.outputs.folder.empty()) {

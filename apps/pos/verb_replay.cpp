@@ -70,6 +70,23 @@ void sayLeftOut(const io::LogTally& tally, const Voice& voice) {
     voice.detail("not a measurement: " + std::to_string(count) + " x " + what);
 }
 
+void requireWhole(const Inputs& inputs, const Replayed& result) {
+  if (!result.log_end.damaged) return;
+  throw DataError(Complaint{
+      .what = "the log is damaged; everything before the damage was used",
+      .place = {.file = inputs.config.log->file.string()},
+      .got = std::to_string(result.log_end.objects) + " whole objects, damage after byte " +
+             std::to_string(result.log_end.byte) + " (" + result.log_end.message + ")",
+      .suggestion = "copy the log again from its source; the results so far are complete up to there"});
+}
+
+void requireTruthOfThatTime(const Inputs& inputs, const Replayed& result) {
+  if (!inputs.truth || inputs.truth->poses.empty()) return;
+  const Duration offset = durationFromSeconds(inputs.config.evaluation.truth_time_offset);
+  const Span truth{inputs.truth->poses.front().stamp + offset, inputs.truth->poses.back().stamp + offset};
+  requireCommonTime(truth, {result.first, result.last}, "the log");
+}
+
 ExitCode runReplay(const Options& options, const Voice& voice) {
   const Inputs inputs = loadInputs(options.inputs);
   if (options.dry_run) {
@@ -77,6 +94,9 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
     voice.say("nothing was run: the configuration, the map and the truth are in order");
     return ExitCode::Ok;
   }
+  std::vector<std::string> names;
+  for (const io::EstimatorEntry& entry : inputs.config.estimators) names.push_back(entry.name);
+  refuseUnknownMetrics(options.outputs.requirements, names);
   const auto folder = openRunFolder(options.outputs);
   std::signal(SIGINT, onInterrupt);
   Replayed result = [&] {
@@ -94,15 +114,9 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
     voice.warn("interrupted: the results cover the log up to where it was stopped");
     return ExitCode::Interrupted;
   }
+  requireTruthOfThatTime(inputs, result);
   checkRequirements(summary, options.outputs.requirements, voice);
-  if (result.log_end.damaged) {
-    throw DataError(Complaint{
-        .what = "the log is damaged; everything before the damage was used",
-        .place = {.file = inputs.config.log->file.string()},
-        .got = std::to_string(result.log_end.objects) + " whole objects, damage after byte " +
-               std::to_string(result.log_end.byte) + " (" + result.log_end.message + ")",
-        .suggestion = "copy the log again from its source; the results so far are complete up to there"});
-  }
+  requireWhole(inputs, result);
   return ExitCode::Ok;
 }
 

@@ -235,7 +235,8 @@ OptionTable<MclConfig> mclOptions() {
           "Decay of the slow likelihood average that decides on fresh particles; 0 means none are injected.")
       .number("injection_fast", &MclConfig::injection_fast, between(0, 1),
               "Decay of the fast likelihood average.")
-      .integer("seed", &MclConfig::seed, atLeast(0), "Seed of the random numbers.")
+      .integer("seed", &MclConfig::seed, atLeast(0),
+               "Seed of its random numbers; the run's seed where absent.")
       .check(kValid);
 }
 
@@ -254,7 +255,7 @@ OptionTable<MrptMclConfig> mrptMclOptions() {
       .integer("particles", &Config::particles, between(1, 10000000), "Number of particles.")
       .flag("adaptive_size", &Config::adaptive_size, "Whether KLD sampling changes the number of particles.")
       .integer("beams", &Config::beams, between(1, 100000), "Beams used, spread evenly over the scan.")
-      .integer("seed", &Config::seed, atLeast(0), "Seed of the random numbers.")
+      .integer("seed", &Config::seed, atLeast(0), "Seed of its random numbers; the run's seed where absent.")
       .check(kValid);
 }
 

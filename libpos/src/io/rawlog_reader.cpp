@@ -98,7 +98,7 @@ const LogTally& RawlogReader::tally() const {
   return impl_->intake.tally();
 }
 
-std::vector<Stamp> frameStamps(const std::string& path) {
+FrameStamps frameStamps(const std::string& path) {
   RawlogReader log(path);
   RawlogReader::Impl& impl = *log.impl_;
   std::vector<Stamp> stamps;
@@ -115,18 +115,12 @@ std::vector<Stamp> frameStamps(const std::string& path) {
     collect();
     while (impl.intake.pop()) continue;
   }
-  if (impl.end.damaged) {
-    throw DataError(Complaint{.what = "the log is damaged, so its pairs cannot all be stamped",
-                              .place = {.file = path},
-                              .got = impl.end.message,
-                              .suggestion = "copy the log again or cut it before the damage"});
-  }
   if (stamps.empty()) {
     throw DataError(Complaint{.what = "the log has no action/observation pairs",
                               .place = {.file = path},
                               .suggestion = "place the truth by time instead of by index"});
   }
-  return stamps;
+  return {stamps, !impl.end.damaged};
 }
 
 }  // namespace pos::io

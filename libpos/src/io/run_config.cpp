@@ -201,8 +201,26 @@ RunConfig validated(RunConfig config) {
   return config;
 }
 
+namespace {
+
+/// The run's seed for every estimator that draws random numbers and has none of its own.
+void handSeedDown(const YamlNode& root, RunConfig& run) {
+  const YamlNode& entries = *root.find("estimators");
+  for (std::size_t i = 0; i < run.estimators.size(); ++i) {
+    if (entries.items[i].find("seed") != nullptr) continue;
+    std::visit(
+        [&](auto& config) {
+          if constexpr (requires { config.seed; }) config.seed = run.seed;
+        },
+        run.estimators[i].config);
+  }
+}
+
+}  // namespace
+
 RunConfig runConfigFrom(const YamlDocument& document, const std::filesystem::path& mrpt_share) {
   RunConfig config = readOptions(document, runOptions());
+  handSeedDown(document.root, config);
   const auto resolve = [&](std::filesystem::path& path) {
     path = resolvedPath(path, document.file.parent_path(), mrpt_share);
   };

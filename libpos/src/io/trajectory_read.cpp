@@ -178,14 +178,15 @@ Truth readEurocTruth(const std::filesystem::path& path) {
   return truth;
 }
 
-Truth readIndexTruth(const std::filesystem::path& path, const std::vector<Stamp>& stamps,
-                     const Pose2& T_map_truth) {
+Truth readIndexTruth(const std::filesystem::path& path, const FrameStamps& frames, const Pose2& T_map_truth) {
+  const std::vector<Stamp>& stamps = frames.stamps;
   NumberRows rows(path, NumberRows::Separator::Blank);
   Truth truth;
   truth.has_z = false;
   while (rows.next()) {
     rows.requireSize(rows.size() == 4, "4 values: index x y phi");
     const std::size_t row = truth.poses.size();
+    if (row >= stamps.size() && !frames.complete) break;  // the log lost the rest
     if (row >= stamps.size()) {
       rows.refuse("more truth rows than frames in the log", "row " + std::to_string(row),
                   std::to_string(stamps.size()) + " rows");

@@ -145,7 +145,9 @@ std::vector<std::string> estimatorWarnings(const EstimatorSummary& e, Duration l
   if (e.estimates == 0) all.push_back(e.name + " recorded no estimate.");
   if (e.evaluation && e.estimates > 0) {
     const eval::Association& a = e.evaluation->association;
-    if (a.coverage < 0.95) {
+    if (a.matched == 0) {
+      all.push_back(e.name + " has no estimate at a time that the truth covers; nothing of it was judged.");
+    } else if (a.coverage < 0.95) {
       all.push_back(e.name + " covers only " + percent(a.coverage) +
                     " of the truth's time span (largest gap " + durationText(a.largest_gap) +
                     "); its errors say nothing about the rest.");

@@ -1,6 +1,7 @@
 /// Action/observation pairs: what belongs together, and when it happened.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/io/CFileOutputStream.h>
 
 #include "pos/core/error.hpp"
 #include "rawlog_mrpt_samples.hpp"
@@ -57,7 +58,21 @@ TEST(FrameStamps, AreOneForEachPair) {
     archive << *frameOf({scanAt(0)}) << *moved(1) << *frameOf({scanAt(2)}) << *moved(1)
             << *frameOf({scanAt(4)}) << *moved(1);
   }
-  EXPECT_THAT(frameStamps(path), ::testing::ElementsAre(at(2), at(4)));
+  EXPECT_THAT(frameStamps(path).stamps, ::testing::ElementsAre(at(2), at(4)));
+}
+
+TEST(FrameStamps, OfADamagedLogAreThoseBeforeTheDamage) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("cut.rawlog");
+  {
+    mrpt::io::CFileOutputStream file(path);
+    auto archive = mrpt::serialization::archiveFrom(file);
+    archive << *moved(1) << *frameOf({scanAt(2)}) << *moved(1) << *frameOf({scanAt(4)});
+  }
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 10);
+  const FrameStamps frames = frameStamps(path);
+  EXPECT_FALSE(frames.complete);
+  EXPECT_THAT(frames.stamps, ::testing::ElementsAre(at(2)));
 }
 
 TEST(FrameStamps, AnObservationOnlyLogHasNone) {

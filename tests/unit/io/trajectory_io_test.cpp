@@ -174,7 +174,7 @@ TEST(TrajectoryIo, IndexTruthTakesTheStampsOfTheFrames) {
   const ScratchFolder folder;
   const auto path = folder.write("gt.txt", "0 0.0 0.0 0.0\r\n1 1.0 0.5 1.570796326794897\r\n");
   const std::vector<Stamp> stamps{stampFromSeconds(10), stampFromSeconds(11)};
-  const Truth truth = readIndexTruth(path, stamps, {2.0, 4.0, 0.0});
+  const Truth truth = readIndexTruth(path, {stamps}, {2.0, 4.0, 0.0});
   ASSERT_EQ(truth.poses.size(), 2U);
   EXPECT_EQ(truth.poses[1].stamp, stamps[1]);
   EXPECT_EQ(truth.poses[1].T_map_body.translation, Eigen::Vector3d(3.0, 4.5, 0.0));
@@ -182,18 +182,27 @@ TEST(TrajectoryIo, IndexTruthTakesTheStampsOfTheFrames) {
   EXPECT_TRUE(truth.has_yaw && !truth.has_z);
 }
 
+TEST(TrajectoryIo, IndexTruthOfADamagedLogEndsWithItsFrames) {
+  const ScratchFolder folder;
+  const auto path = folder.write("gt.txt", "0 0 0 0\n1 1 0 0\n2 2 0 0\n");
+  const FrameStamps frames{{Stamp{}, stampFromSeconds(1)}, false};
+  const Truth truth = readIndexTruth(path, frames);
+  ASSERT_EQ(truth.poses.size(), 2U);
+  EXPECT_EQ(truth.poses[1].stamp, frames.stamps[1]);
+}
+
 TEST(TrajectoryIo, IndexTruthMustMatchTheFrames) {
   const ScratchFolder folder;
   const auto path = folder.write("gt.txt", "0 0 0 0\n1 1 0 0\n");
   const auto read = [&](std::vector<Stamp> stamps) {
-    return complaintOf<DataError>([&] { readIndexTruth(path, stamps); });
+    return complaintOf<DataError>([&] { readIndexTruth(path, {std::move(stamps)}); });
   };
   EXPECT_THAT(read({Stamp{}}), AllOf(HasSubstr("gt.txt:2"), HasSubstr("more truth rows")));
   EXPECT_THAT(read({Stamp{}, stampFromSeconds(1), stampFromSeconds(2)}), HasSubstr("fewer truth rows"));
   EXPECT_THAT(read({Stamp{}, Stamp{}}), HasSubstr("do not increase"));
   const auto gap = folder.write("gap.txt", "0 0 0 0\n2 1 0 0\n");
   EXPECT_THAT(complaintOf<DataError>([&] {
-                readIndexTruth(gap, {Stamp{}, stampFromSeconds(1)});
+                readIndexTruth(gap, {{Stamp{}, stampFromSeconds(1)}});
               }),
               HasSubstr("gap.txt:2:1: the index does not count up"));
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pos/core/measurement.hpp"
+#include "pos/io/frame_stamps.hpp"
 
 namespace pos::io {
 
@@ -58,13 +59,9 @@ class RawlogReader {
   const LogTally& tally() const;
 
  private:
-  friend std::vector<Stamp> frameStamps(const std::string& path);
+  friend FrameStamps frameStamps(const std::string& path);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Stamp of each action/observation pair, to place truth files that go by index. Throws DataError when a pair
-/// has no stamp, when there are no pairs, or when the log is damaged.
-std::vector<Stamp> frameStamps(const std::string& path);
 
 }  // namespace pos::io

@@ -15,17 +15,19 @@
 
 #include "pos/core/estimate.hpp"
 #include "pos/core/verdict.hpp"
+#include "pos/io/frame_stamps.hpp"
 
 namespace pos::io {
 
-/// `t x y z qx qy qz qw`, t in seconds. A file whose every orientation is the identity gives a truth without heading,
-/// one whose every height is exactly zero a truth without height.
+/// `t x y z qx qy qz qw`, t in seconds. A file whose every orientation is the identity gives a truth without
+/// heading, one whose every height is exactly zero a truth without height.
 Truth readTumTruth(const std::filesystem::path& path);
 /// `t, x, y, z, qw, qx, qy, qz, ...`, t in nanoseconds; further columns are not used.
 Truth readEurocTruth(const std::filesystem::path& path);
-/// MRPT's `index x y phi` rows (m, rad): row i is the pose at stamps[i]. There must be one row for each
-/// stamp. `T_map_truth` moves the poses into the map. The result has no z.
-Truth readIndexTruth(const std::filesystem::path& path, const std::vector<Stamp>& stamps,
+/// MRPT's `index x y phi` rows (m, rad): row i is the pose at frames.stamps[i]. There must be one row for
+/// each stamp; rows for pairs that a damaged log lost are left out. `T_map_truth` moves the poses into the
+/// map. The result has no z.
+Truth readIndexTruth(const std::filesystem::path& path, const FrameStamps& frames,
                      const Pose2& T_map_truth = {});
 
 /// Trajectory in 8 columns (covariance zero) or 20.

@@ -1,0 +1,133 @@
+#include "replay/run_pos.hpp"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace pos::replay {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only what the command may depend on; sanitizers keep their settings.
+std::vector<std::string> bareEnvironment() {
+  std::vector<std::string> environment{"PATH=/usr/bin:/bin", "LC_ALL=C.UTF-8"};
+  for (const char* name : {"POS_MRPT_SHARE", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
+  }
+  return environment;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+/// Where the child's streams go, and where it starts.
+class Streams {
+ public:
+  Streams(const fs::path& folder, const fs::path& out, const fs::path& err) {
+    const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addchdir_np(&actions_, folder.c_str());
+    posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions_, 1, out.c_str(), flags, 0644);
+    posix_spawn_file_actions_addopen(&actions_, 2, err.c_str(), flags, 0644);
+  }
+  Streams(const Streams&) = delete;
+  Streams& operator=(const Streams&) = delete;
+  Streams(Streams&&) = delete;
+  Streams& operator=(Streams&&) = delete;
+  ~Streams() { posix_spawn_file_actions_destroy(&actions_); }
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+int exitCodeOf(pid_t child) {
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+int RunResult::errLines() const {
+  return static_cast<int>(std::count(err.begin(), err.end(), '\n'));
+}
+
+Bench::Bench() {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  folder_ = fs::path(POS_BINARY).parent_path().parent_path() / "replay_tests" /
+            (std::string(test->test_suite_name()) + "_" + test->name());
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+}
+
+Bench::~Bench() {
+  std::error_code ignored;
+  if (!::testing::Test::HasFailure()) fs::remove_all(folder_, ignored);
+}
+
+RunResult Bench::pos(const std::vector<std::string>& arguments) const {
+  std::vector<std::string> words{POS_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> environment = bareEnvironment();
+  const fs::path out = folder_.string() + ".stdout";
+  const fs::path err = folder_.string() + ".stderr";
+  const Streams streams(folder_, out, err);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, POS_BINARY, streams.get(), nullptr, pointers(words).data(),
+                                 pointers(environment).data());
+  if (failed != 0) throw std::runtime_error(std::string("cannot start ") + POS_BINARY);
+  RunResult result;
+  result.exit_code = exitCodeOf(child);
+  result.out = contents(out);
+  result.err = contents(err);
+  fs::remove(out);
+  fs::remove(err);
+  return result;
+}
+
+void Bench::write(const std::string& name, const std::string& text) const {
+  fs::create_directories((folder_ / name).parent_path());
+  std::ofstream(folder_ / name, std::ios::binary) << text;
+}
+
+std::string Bench::read(const std::string& name) const {
+  return contents(folder_ / name);
+}
+
+std::string contents(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+fs::path source(const std::string& relative) {
+  return fs::path(POS_SOURCE_DIR) / relative;
+}
+
+fs::path datasets() {
+  const char* share = std::getenv("POS_MRPT_SHARE");
+  const fs::path folder = fs::path(share != nullptr ? share : "/usr/share/mrpt") / "datasets";
+  return fs::exists(folder / "uwb_ro-localization_demo.rawlog") ? folder : fs::path{};
+}
+
+fs::path recordings() {
+  const char* named = std::getenv("POS_DATA_DIR");
+  const fs::path folder = named != nullptr ? fs::path(named) : source("../shared/data").lexically_normal();
+  return fs::exists(folder / "plaza1") ? folder : fs::path{};
+}
+
+}  // namespace pos::replay

@@ -1,0 +1,111 @@
+// The configurations of configs/uwb_demo with the log of Debian's mrpt-common.
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "replay/figures.hpp"
+
+namespace pos::replay {
+namespace {
+
+constexpr int kSeeds = 10;
+
+class UwbDemo : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (datasets().empty())
+      GTEST_SKIP() << "install mrpt-common to run this test: its UWB demo log is not there";
+  }
+
+  static std::string config(const std::string& name) {
+    return source("configs/uwb_demo/" + name + ".yaml").string();
+  }
+
+  /// The configuration with one estimator ten times, seeds 1 to 10: one pass over the log instead of ten.
+  std::string seeded(const std::string& name, const std::string& estimator) const {
+    YAML::Node run = YAML::LoadFile(config(name));
+    YAML::Node copies;
+    for (const YAML::Node& entry : run["estimators"]) {
+      if (entry["name"].as<std::string>() != estimator) continue;
+      for (int seed = 1; seed <= kSeeds; ++seed) {
+        YAML::Node copy = YAML::Clone(entry);
+        copy["name"] = estimator + "_seed" + std::to_string(seed);
+        copy["seed"] = seed;
+        copies.push_back(copy);
+      }
+    }
+    run["estimators"] = copies;
+    run["map"] = source("maps/uwb_demo/map.yaml").string();
+    std::ostringstream text;
+    text << run;
+    bench_.write(estimator + ".yaml", text.str() + "\n");
+    return estimator + ".yaml";
+  }
+
+  Bench bench_;
+};
+
+TEST_F(UwbDemo, SixEstimatorsKeepTheirFigures) {
+  expectFigures("uwb_demo/compare", {replayed(bench_, {config("compare")})});
+}
+
+TEST_F(UwbDemo, ParticleFiltersKeepTheirFiguresOverTenSeeds) {
+  expectFigures("uwb_demo/compare seeds", {replayed(bench_, {seeded("compare", "mcl_ranges")}),
+                                           replayed(bench_, {seeded("compare", "mcl_scan")})});
+}
+
+TEST_F(UwbDemo, AHeadingWrongByAnyAngleIsFound) {
+  std::vector<json> runs;
+  for (const char* yaw : {"0", "90", "180"}) {
+    const std::string start = std::string("estimators.range_odometry.start.yaw_deg=") + yaw;
+    runs.push_back(replayed(bench_, {config("unknown_heading"), "--set", start}));
+  }
+  expectFigures("uwb_demo/unknown_heading", runs);
+}
+
+TEST_F(UwbDemo, AnUnknownStartIsFound) {
+  expectFigures("uwb_demo/unknown_start", {replayed(bench_, {config("unknown_start")})});
+}
+
+/// x and y of the last row of <estimator>.tum.
+std::pair<double, double> lastPosition(const std::string& tum) {
+  std::istringstream lines(tum);
+  std::string last;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line[0] != '#') last = line;
+  }
+  double t = 0.0;
+  double x = NAN;
+  double y = NAN;
+  std::istringstream(last) >> t >> x >> y;
+  return {x, y};
+}
+
+/// x and y of the reference's last pose; the demo's reference is relative to the start (2, 4).
+std::pair<double, double> lastTruth() {
+  std::istringstream rows(contents(datasets() / "uwb_ro-localization_demo_GT.txt"));
+  double index = 0.0;
+  double x = NAN;
+  double y = NAN;
+  double phi = 0.0;
+  for (double i, a, b, c; rows >> i >> a >> b >> c;) std::tie(index, x, y, phi) = std::tie(i, a, b, c);
+  return {x + 2.0, y + 4.0};
+}
+
+TEST_F(UwbDemo, TheScanFindsItsPlaceInTheWholeRoomForNineSeedsOfTen) {
+  (void)replayed(bench_, {seeded("unknown_start", "mcl_scan"), "--out", "run"});
+  const auto [x, y] = lastTruth();
+  int found = 0;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const auto [x_end, y_end] =
+        lastPosition(bench_.read("run/mcl_scan_seed" + std::to_string(seed) + ".tum"));
+    found += std::hypot(x_end - x, y_end - y) < 0.5 ? 1 : 0;
+  }
+  expectFigure("uwb_demo/unknown_start seeds", "mcl_scan", "found at the end",
+               static_cast<double>(found) / kSeeds);
+}
+
+}  // namespace
+}  // namespace pos::replay
