@@ -45,6 +45,12 @@ void requireFiles(const InputOptions& options, const io::RunConfig& config) {
     const std::string place = on_command_line ? option : options.config;
     io::existingFile(file, Complaint{.place = {.file = place}, .key = on_command_line ? "" : key});
   };
+  if (!config.log) {
+    throw UsageError(Complaint{.what = "no log to replay",
+                               .place = {.file = options.config},
+                               .key = "log.file",
+                               .suggestion = "name it in the configuration or with --log"});
+  }
   if (config.map) require(*config.map, !options.map.empty(), "--map", "map");
   try {
     require(config.log->file, !options.log.empty(), "--log", "log.file");
@@ -59,12 +65,6 @@ void applyCommandLine(const InputOptions& options, io::RunConfig& config) {
   if (!options.log.empty()) config.log = io::LogSource{fs::absolute(options.log)};
   if (!options.map.empty()) config.map = fs::absolute(options.map);
   applyTruth(options, config);
-  if (!config.log) {
-    throw UsageError(Complaint{.what = "no log to replay",
-                               .place = {.file = options.config},
-                               .key = "log.file",
-                               .suggestion = "name it in the configuration or with --log"});
-  }
 }
 
 Truth truthInLog(const fs::path& log) {
@@ -144,20 +144,29 @@ std::optional<Truth> loadTruth(const io::RunConfig& config) {
   return truth;
 }
 
-Inputs loadInputs(const InputOptions& options) {
-  Inputs inputs;
+io::RunConfig loadConfig(const InputOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
-  inputs.config = io::loadRunConfig(options.config, overrides, mrptShare());
-  applyCommandLine(options, inputs.config);
-  requireFiles(options, inputs.config);
+  io::RunConfig config = io::loadRunConfig(options.config, overrides, mrptShare());
+  applyCommandLine(options, config);
+  return config;
+}
+
+Inputs loadInputs(const InputOptions& options) {
+  io::RunConfig config = loadConfig(options);
+  requireFiles(options, config);
+  return loadInputs(std::move(config));
+}
+
+Inputs loadInputs(io::RunConfig config) {
+  Inputs inputs{std::move(config), nullptr, std::nullopt};
   inputs.map = std::make_shared<const map::TunnelMap>(mapOf(inputs.config));
   inputs.truth = loadTruth(inputs.config);
   for (io::EstimatorEntry& entry : inputs.config.estimators) {
-    std::visit([&](auto& config) { spellOutStart(config.start, inputs.truth, entry.name); }, entry.config);
+    std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
   }
-  inputs.config =
-      io::validated(std::move(inputs.config));  // a start that was spelt out may not suit its estimator
+  // a start that was spelt out may not suit its estimator
+  inputs.config = io::validated(std::move(inputs.config));
   return inputs;
 }
 

@@ -36,6 +36,11 @@ struct Inputs {
 };
 
 Inputs loadInputs(const InputOptions& options);
+/// The same from a configuration that was resolved before (run.json).
+Inputs loadInputs(io::RunConfig config);
+
+/// The configuration with the command line's choices; nothing it names is opened.
+io::RunConfig loadConfig(const InputOptions& options);
 
 /// The reference poses that the configuration names, in the map frame. Throws DataError.
 std::optional<Truth> loadTruth(const io::RunConfig& config);

@@ -41,8 +41,14 @@ void addConfig(const Verbs& verbs) {
   auto inputs = std::make_shared<InputOptions>();
   addInputs(*check, *inputs);
   addVoice(*check, *verbs.voice);
-  check->callback([inputs, verbs] {
-    (void)loadInputs(*inputs);
+  auto keys_only = std::make_shared<bool>(false);
+  check->add_flag("--keys-only", *keys_only, "Check keys and values only; open none of the files named");
+  check->callback([inputs, keys_only, verbs] {
+    if (*keys_only) {
+      (void)loadConfig(*inputs);
+    } else {
+      (void)loadInputs(*inputs);
+    }
     verbs.voice->say(inputs->config + ": in order");
   });
 

@@ -40,11 +40,8 @@ std::string resolvedConfigOf(const fs::path& folder) {
 /// The run is repeated from its resolved configuration: same inputs, same seed, same bytes.
 ExitCode runReport(const Options& options, const Voice& voice) {
   const std::string yaml = resolvedConfigOf(options.folder);
-  const fs::path config = fs::path(options.folder) / "config.yaml";
-  writeFile(config, yaml);
-  InputOptions inputs_wanted;
-  inputs_wanted.config = config.string();
-  const Inputs inputs = loadInputs(inputs_wanted);
+  const fs::path origin = fs::path(options.folder) / "run.json";
+  const Inputs inputs = loadInputs(io::runConfigFrom(io::parseYaml(yaml, origin), mrptShare()));
   const Replayed result = replayed(inputs, nullptr, [](std::uint64_t, Stamp) { return true; });
   const fs::path out = options.out.empty() ? fs::path(options.folder) / "report.html" : fs::path(options.out);
   writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml));

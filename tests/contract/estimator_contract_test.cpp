@@ -75,7 +75,9 @@ std::vector<Subject> subjects() {
 
 class EveryEstimator : public ::testing::TestWithParam<Subject> {
  protected:
-  std::unique_ptr<Estimator> make() const { return yardstick::makeAnyEstimator(GetParam().config, smallMap()); }
+  std::unique_ptr<Estimator> make() const {
+    return yardstick::makeAnyEstimator(GetParam().config, smallMap());
+  }
   std::vector<Measurement> log(double duration = 6.0) const {
     return smallRun({.duration = duration, .scans = GetParam().uses_scans});
   }

@@ -1,6 +1,6 @@
 /// libFuzzer entry: any bytes given as a replay configuration, as a map and as an override load or throw
-/// ConfigError. Build with clang: -fsanitize=fuzzer,address,undefined and the sources of core, map, estimation
-/// and io's configuration part. Not part of the normal build.
+/// ConfigError. Build with clang: -fsanitize=fuzzer,address,undefined and the sources of core, map,
+/// estimation and io's configuration part. Not part of the normal build.
 
 #include <cstdint>
 #include <string>

@@ -51,6 +51,28 @@ TEST_F(BadInput, AFileThatIsNoLogIsNamed) {
   expectRefusal({"replay", config_, "--truth", "missing.tum"}, 5, "does not exist");
 }
 
+TEST_F(BadInput, FlippedBytesGiveTheResultsBeforeTheDamage) {
+  std::string log = contents(datasets() / "uwb_ro-localization_demo.rawlog");
+  for (std::size_t i = log.size() / 2; i < log.size() / 2 + 64; ++i) log[i] = static_cast<char>(~log[i]);
+  bench_.write("flipped.rawlog", log);
+  expectRefusal({"replay", config_, "--log", "flipped.rawlog", "--out", "run"}, 5, "the log is damaged");
+  EXPECT_GT(bench_.read("run/range_odometry.tum").size(), 1000U);
+}
+
+TEST_F(BadInput, ConfigurationAndMapAreToldByLineAndKey) {
+  const std::string good = contents(config_);
+  bench_.write("twice.yaml", good + "\nname: again\n");
+  expectRefusal({"config", "check", "twice.yaml", "--keys-only"}, 3, "twice.yaml:");
+  std::string typed = good;
+  typed.replace(typed.find("type: range_odometry"), 20, "type: range_odometer");
+  bench_.write("typed.yaml", typed);
+  expectRefusal({"config", "check", "typed.yaml", "--keys-only"}, 3, "range_odometry");
+  bench_.write("map.yaml",
+               "schema: 1\nname: two\nanchors:\n  - {id: 4, name: A, x_m: 0, y_m: 0, z_m: 0}\n"
+               "  - {id: 4, name: B, x_m: 1, y_m: 0, z_m: 0}\n");
+  expectRefusal({"replay", config_, "--map", "map.yaml"}, 3, "map.yaml:5");
+}
+
 TEST_F(BadInput, AWrongKeyOrFileOfTheConfigurationIsNamed) {
   expectRefusal({"replay", config_, "--map", "missing.yaml"}, 3, "--map: the file does not exist");
   const std::string key = "estimators.range_odometry.";

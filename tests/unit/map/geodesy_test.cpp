@@ -50,7 +50,7 @@ TEST(LocalFrame, ThereAndBackIsTheSamePoint) {
   turned.grid_rotation = radians(-17.0);
   const LocalFrame frame(turned);
   for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(1234.5, -987.6, -310.0),
-                                  Eigen::Vector3d(-40000.0, 25000.0, 120.0)}) {
+                                   Eigen::Vector3d(-40000.0, 25000.0, 120.0)}) {
     const GeodeticOrigin g = frame.toGeodetic(p);
     EXPECT_LT((frame.fromGeodetic(g.latitude, g.longitude, g.altitude) - p).norm(), 1e-6);
   }

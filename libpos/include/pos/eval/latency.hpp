@@ -21,10 +21,12 @@ struct LatencyFit {
   std::size_t pairs = 0;
 };
 
-/// Tries latencies from -window to +window (s) in steps of 10 ms: shifts `late` by it, lays it on `reference` by a
-/// plane rigid motion (least squares), and takes the shift with the smallest residual, refined by a parabola.
-/// `reference` is interpolated, never over more than a second. The vehicle has to move, and to turn or change speed:
-/// throws DataError when fewer than ten pairs overlap or the residual hardly depends on the shift.
-LatencyFit fittedLatency(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference, double window);
+/// Tries latencies from -window to +window (s) in steps of 10 ms: shifts `late` by it, lays it on `reference`
+/// by a plane rigid motion (least squares), and takes the shift with the smallest residual, refined by a
+/// parabola. `reference` is interpolated, never over more than a second. The vehicle has to move, and to turn
+/// or change speed: throws DataError when fewer than ten pairs overlap or the residual hardly depends on the
+/// shift.
+LatencyFit fittedLatency(const std::vector<TimedPosition>& late, const std::vector<TimedPosition>& reference,
+                         double window);
 
 }  // namespace pos::eval

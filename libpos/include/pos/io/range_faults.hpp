@@ -20,7 +20,8 @@ class RangeFaults {
  public:
   explicit RangeFaults(const RangeFaultRates& rates) : rates_(rates) {}
 
-  /// The measurement, spoilt when its turn has come; a spoilt range stays at least 0.05 m. Others pass untouched.
+  /// The measurement, spoilt when its turn has come; a spoilt range stays at least 0.05 m. Others pass
+  /// untouched.
   Measurement applied(Measurement measurement);
   std::uint64_t count() const { return count_; }
 

@@ -8,7 +8,8 @@
 namespace pos::map {
 
 /// WGS84 to the map's local frame and back: east-north-up about the origin, turned by the grid's rotation.
-/// Exact (GeographicLib), not a flat-earth approximation. Angles in radians, heights in m above the ellipsoid.
+/// Exact (GeographicLib), not a flat-earth approximation. Angles in radians, heights in m above the
+/// ellipsoid.
 class LocalFrame {
  public:
   explicit LocalFrame(const GeodeticOrigin& origin) : origin_(origin) {}
