@@ -32,7 +32,7 @@ class Pass {
   Pass(const Inputs& inputs, const io::RunFolder* folder)
       : inputs_(inputs), sequencer_(sequencerLag(inputs.config)), faults_(rangeFaults(inputs.config)) {
     for (const io::EstimatorEntry& entry : inputs.config.estimators) {
-      recorders_.emplace_back(entry.name, io::typeName(entry.config),
+      recorders_.emplace_back(entry.name, std::string(estimation::typeName(entry.config)),
                               yardstick::makeAnyEstimator(entry.config, inputs.map),
                               inputs.config.record.max_rate);
       if (folder != nullptr) recorders_.back().openFiles(*folder);

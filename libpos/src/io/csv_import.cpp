@@ -5,13 +5,10 @@
 #include <iterator>
 
 #include "import_table.hpp"
-#include "pos/core/random.hpp"
+#include "pos/io/range_faults.hpp"
 
 namespace pos::io {
 namespace {
-
-constexpr double kLeastRange = 0.05;         // m, what an injected outlier leaves of a range
-constexpr std::uint64_t kOutlierStream = 1;  // stream of the seed that outliers are drawn from
 
 struct StreamPart {
   std::vector<Measurement> measurements;
@@ -162,20 +159,12 @@ ImportOptions validated(const ImportOptions& options) {
 
 InjectedOutliers withRangeOutliers(std::vector<Measurement> measurements, const ImportOptions& options) {
   const ImportOptions checked = validated(options);
-  RandomStream random(checked.seed, kOutlierStream);
-  InjectedOutliers result{std::move(measurements), 0};
-  for (Measurement& measurement : result.measurements) {
-    auto* range = std::get_if<BeaconRange>(&measurement.reading);
-    if (range == nullptr) continue;
-    // three draws for every range, so that the probability does not shift who gets which error
-    const bool hit = random.bernoulli(checked.range_outlier_probability);
-    const double size = random.uniform(checked.range_outlier_min_m, checked.range_outlier_max_m);
-    const double sign = random.bernoulli(0.5) ? 1.0 : -1.0;
-    if (!hit) continue;
-    range->range = std::max(kLeastRange, range->range + sign * size);
-    ++result.count;
-  }
-  return result;
+  RangeFaults faults({.probability = checked.range_outlier_probability,
+                      .min = checked.range_outlier_min_m,
+                      .max = checked.range_outlier_max_m,
+                      .seed = checked.seed});
+  for (Measurement& measurement : measurements) measurement = faults.applied(std::move(measurement));
+  return {std::move(measurements), static_cast<std::size_t>(faults.count())};
 }
 
 ImportResult importCsv(const ImportMapping& mapping, const std::filesystem::path& data_dir,

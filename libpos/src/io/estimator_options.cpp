@@ -113,13 +113,6 @@ OptionTable<ParticleCount> particleOptions() {
 
 }  // namespace
 
-std::string typeName(const estimation::EstimatorConfig& config) {
-  static constexpr std::array<const char*, 4> kNames = {"dead_reckoning", "range_odometry", "mcl",
-                                                        "mrpt_mcl"};
-  static_assert(kNames.size() == std::variant_size_v<estimation::EstimatorConfig>);
-  return kNames[config.index()];
-}
-
 OptionTable<StartConfig> startOptions() {
   return OptionTable<StartConfig>("start", "What is known of the pose at the first measurement.")
       .choice(

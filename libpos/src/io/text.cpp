@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "pos/core/edit_distance.hpp"
+
 namespace pos::io::text {
 namespace {
 
@@ -45,21 +47,6 @@ std::string plain(const char* begin, const char* end) {
   const bool is_zero = text.find_first_of("123456789") == std::string::npos;
   if (is_zero && text.starts_with('-')) text.erase(0, 1);
   return text;
-}
-
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "complaint.hpp"
 #include "config_text.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/estimation/factory.hpp"
 #include "pos/io/run_config.hpp"
 
 namespace pos::io {

@@ -16,9 +16,6 @@ struct EstimatorEntry {
   bool operator==(const EstimatorEntry&) const = default;
 };
 
-/// The `type:` of a configuration: "range_odometry".
-std::string typeName(const estimation::EstimatorConfig& config);
-
 OptionTable<estimation::StartConfig> startOptions();
 OptionTable<estimation::OdometryNoise> odometryNoiseOptions();
 OptionTable<estimation::DeadReckoningConfig> deadReckoningOptions();
