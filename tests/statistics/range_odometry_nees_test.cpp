@@ -76,14 +76,15 @@ TEST(RangeOdometryStatistics, CalibrationStatesKeepTheCovarianceHonest) {
 }
 
 TEST(RangeOdometryStatistics, AnOverconfidentFilterWouldBeFound) {
+  constexpr int kFew = 25;  // its doubts fork without end, and few runs suffice to find it out
   double sum = 0.0;
-  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kFew; ++seed) {
     const SmallRunOptions options{.seed = seed, .duration = 12.0};
     RangeOdometryConfig config = matchedConfig(options, seed);
     config.range_sigma = 0.5 * options.range_sigma;
     sum += endNees(options, config);
   }
-  EXPECT_GT(sum / kRuns, meanChiSquareBounds(0.998, 3.0, kRuns).high);
+  EXPECT_GT(sum / kFew, meanChiSquareBounds(0.998, 3.0, kFew).high);
 }
 
 }  // namespace pos::estimation
