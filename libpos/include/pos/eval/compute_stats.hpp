@@ -24,7 +24,7 @@ class ComputeStats {
 
  private:
   static constexpr int kBinsPerOctave = 16;
-  static constexpr std::size_t kBins = 16 * 34;
+  static constexpr std::size_t kBins = std::size_t{16} * 34;
   static constexpr double kSmallest_ns = 10.0;
 
   std::array<std::uint64_t, kBins> bins_{};
