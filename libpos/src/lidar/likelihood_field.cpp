@@ -11,6 +11,11 @@
 namespace pos::lidar {
 namespace {
 
+/// Place of a cell in a row-major table.
+std::size_t cellIndex(int row, int column, int width) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+}
+
 constexpr std::size_t kChunk = 64;
 
 std::size_t cellCount(const Cells& cells) {
@@ -54,8 +59,8 @@ LikelihoodField::LikelihoodField(const Cells& cells, const BeamModel& model)
                 static_cast<float>(std::log(p)));
   for (int row = 0; row < cells.rows; ++row) {
     for (int column = 0; column < cells.columns; ++column) {
-      const double d = distances[static_cast<std::size_t>(row * cells.columns + column)] / model.sigma;
-      table_[static_cast<std::size_t>((row + 1) * stride_ + column + 1)] =
+      const double d = distances[cellIndex(row, column, cells.columns)] / model.sigma;
+      table_[cellIndex(row + 1, column + 1, stride_)] =
           static_cast<float>(std::log((1.0 - p) * std::exp(-0.5 * d * d) + p));
     }
   }
@@ -64,7 +69,7 @@ LikelihoodField::LikelihoodField(const Cells& cells, const BeamModel& model)
 float LikelihoodField::at(float x, float y) const {
   const float column = std::clamp((x - x_origin_) * cells_per_metre_, 0.0F, column_max_);
   const float row = std::clamp((y - y_origin_) * cells_per_metre_, 0.0F, row_max_);
-  return table_[static_cast<std::size_t>(static_cast<int>(row) * stride_ + static_cast<int>(column))];
+  return table_[cellIndex(static_cast<int>(row), static_cast<int>(column), stride_)];
 }
 
 void LikelihoodField::addScores(const PosesView& poses, const BeamPoints& beams,
