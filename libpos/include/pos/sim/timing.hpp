@@ -1,89 +1,85 @@
 #pragma once
-/// When a simulated sensor measures and when its readings arrive. Common to all sensors.
+/// When a simulated sensor measures, and what the way to the recorder does to its measurements.
+///
+/// Times are seconds since the scenario's start.
 
 #include <cstdint>
-#include <memory>
-#include <string_view>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "pos/core/random.hpp"
-#include "pos/core/stamp.hpp"
-#include "pos/sim/motion.hpp"
+#include "pos/sim/sensor.hpp"
 
 namespace pos::sim {
 
-/// A stretch of time, s since the scenario's start; a moment t is inside when from <= t < to.
-struct TimeWindow {
+/// The half-open span [from, to), s.
+struct TimeSpan {
   double from = 0.0;
   double to = 0.0;
 
   bool contains(double t) const { return from <= t && t < to; }
-  bool operator==(const TimeWindow&) const = default;
 };
 
-struct SensorTiming {
-  double rate = 100.0;            ///< Hz
-  double phase = 0.0;             ///< s, first reading after the start of the scenario
-  double latency = 0.0;           ///< s from measurement to arrival
-  double jitter_sigma = 0.0;      ///< s, of the latency; a reading never arrives before it is made
-  double stamp_offset = 0.0;      ///< s, added to every stamp: a clock that is off (a fault, not a latency)
-  double loss_probability = 0.0;  ///< of each reading, 0..1
-  std::vector<TimeWindow> outages = {};  ///< nothing arrives of what is measured then
-
-  bool operator==(const SensorTiming&) const = default;
+/// What all sensors of one run share.
+struct RunSetup {
+  Stamp start = {};        ///< stamp of the scenario's time 0
+  std::uint64_t seed = 0;  ///< the run's seed
 };
 
-/// The timing itself when it makes sense; throws ConfigError with the key.
-SensorTiming validated(const SensorTiming& timing);
-
-/// Which of the independent sequences of one sensor a random number belongs to, so that switching one error
-/// on leaves the others' numbers as they were.
-enum class Purpose : std::uint64_t { Timing = 0, Constants, Noise, Drift, Faults, Extra };
-
-/// Where a sensor's random numbers come from: the scenario's seed and a number of its own (by convention
-/// `streamOf(label)`, so that sensors do not depend on their order).
-struct SensorSeed {
-  std::uint64_t seed = 1;
-  std::uint64_t stream = 0;
-
-  RandomStream sequence(Purpose purpose) const {
-    return RandomStream(seed, stream * 16U + static_cast<std::uint64_t>(purpose));
-  }
+/// The clockwork of one sensor.
+struct Timing {
+  double rate = 10.0;                  ///< Hz
+  double phase = 0.0;                  ///< s, moment of the first measurement
+  double jitter = 0.0;                 ///< s, 1 sigma of the moment of measuring about its regular tick
+                                       ///< (cut off at 0.45 periods); the stamp tells the true moment
+  double latency = 0.0;                ///< s, from measuring to arrival
+  double latency_jitter = 0.0;         ///< s, 1 sigma; the latency grows by |normal|, never shrinks
+  double stamp_error = 0.0;            ///< s, stamp minus true moment: 0.2 = stamps 0.2 s late
+  std::vector<TimeSpan> outages = {};  ///< nothing is delivered then
+  double drop_probability = 0.0;       ///< of any one measurement, outside outages
+  std::uint32_t stream = 0;            ///< random stream; every sensor of a scenario has its own
 };
 
-/// What every sensor stream is told beside its own model.
-struct StreamContext {
-  std::shared_ptr<const Motion> motion = {};
-  SensorSeed seed = {};
-  Stamp start = {};       ///< stamp of t = 0
-  double duration = 0.0;  ///< s, nothing is measured later
+/// `timing` itself; throws ConfigError naming `key` and the first field that cannot be.
+Timing validated(Timing timing, const std::string& key);
+
+/// The random numbers of one purpose of one sensor. Purposes of a sensor, sensors and seeds do not overlap.
+RandomStream randomStream(const RunSetup& run, const Timing& timing, std::uint32_t purpose);
+
+/// A moment of measuring.
+struct Tick {
+  std::int64_t index = 0;  ///< counts from 0, lost ones included
+  double t = 0.0;          ///< s, a whole number of nanoseconds
+  bool lost = false;       ///< fell into an outage or was dropped
 };
 
-/// A stream number from a sensor's label (64-bit FNV-1a, its upper four bits given up).
-std::uint64_t streamOf(std::string_view label);
-
-/// Walks through a sensor's moments and says what becomes of each. Moment k is at phase + k / rate, computed
-/// from k, so that nothing adds up over hours.
-class SensorClock {
+/// Makes the moments of measuring and stamps what was measured. Purposes 0..2 of randomStream are its own;
+/// sensors use those from kFirstPurpose up. Outages do not shift the random numbers of later ticks.
+class Ticker {
  public:
-  SensorClock(const SensorTiming& timing, SensorSeed seed, Stamp start);
+  static constexpr std::uint32_t kFirstPurpose = 8;
 
-  /// One moment: when, how it will be stamped and when it arrives; arrivals do not overtake each other.
-  struct Tick {
-    double t = 0.0;  ///< s since the start
-    Stamp stamp = {};
-    Stamp arrival = {};
-    bool lost = false;  ///< measured, but it never arrives
-  };
-  /// The next moment; the caller ends when t passes the scenario's end.
-  Tick next();
+  /// Ticks lie in [0, duration], s.
+  Ticker(const Timing& timing, const RunSetup& run, double duration);
+
+  std::optional<Tick> next();
+  /// The delivery of a reading taken at `t` and ready to send no earlier than `ready`, s. Deliveries queue:
+  /// none arrives before the one sent before it.
+  Delivery sent(double t, double ready, const std::string& sensor, Reading reading);
+  Delivery sent(double t, const std::string& sensor, Reading reading) {
+    return sent(t, t, sensor, std::move(reading));
+  }
 
  private:
-  SensorTiming timing_;
-  RandomStream random_;
-  Stamp start_;
-  Stamp last_arrival_ = {};
-  std::uint64_t count_ = 0;
+  Timing timing_;
+  RunSetup run_;
+  double duration_;
+  std::int64_t index_ = 0;
+  RandomStream jitter_;
+  RandomStream drops_;
+  RandomStream latency_;
+  Stamp last_arrival_ = Stamp::min();
 };
 
 }  // namespace pos::sim
