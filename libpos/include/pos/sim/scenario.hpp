@@ -54,6 +54,8 @@ struct Scenario {
   std::string source = {};                        ///< where it was published: authors, year, section
   std::string inferred = {};                      ///< what the publication does not say and we chose
   std::optional<std::filesystem::path> map = {};  ///< absolute after loading; absent: no anchors
+  /// Only while a file is read: the vehicle's own file, over which `vehicle` of the scenario was laid.
+  std::optional<std::filesystem::path> vehicle_file = {};
   Vehicle vehicle = {};
   /// The origin of Level and Ellipsoid is the map's.
   EarthConfig earth = {};

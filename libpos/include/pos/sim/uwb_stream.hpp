@@ -18,6 +18,7 @@ struct Tag {
   TagId id = 0;
   Eigen::Vector3d tag_body = Eigen::Vector3d::Zero();  ///< m, FLU
   double delay = 0.0;                                  ///< s after the cycle's tick
+  std::string mount = {};  ///< name of its place on the vehicle, which a scenario puts into tag_body
 };
 
 /// TwoWay: six stamps of two clocks (two_way_ranging.hpp), the range computed from the counts.
