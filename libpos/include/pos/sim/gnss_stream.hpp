@@ -29,9 +29,11 @@ struct GnssConfig {
   map::GeodeticOrigin origin = {};
   std::vector<GnssZone> zones = {};  ///< the first that contains the antenna counts; outside all: no fix
   double correlation_time = 0.0;     ///< s, first-order Gauss-Markov errors; 0: white
-  double stale = 0.0;                ///< s after a change of zone during which covariance and quality stay
-                                     ///< those last reported (not across a masked zone or a gap of fixes)
-  std::optional<double> claimed_sigma = {};  ///< m, per axis; reported throughout in place of the true one
+  /// s after a change of zone during which covariance and quality stay those last reported; not across a
+  /// masked zone.
+  double stale = 0.0;
+  /// m, reported throughout in place of the true sigma (height: times the zone's vertical factor).
+  std::optional<double> claimed_sigma = {};
 };
 
 /// Throws ConfigError naming the first thing wrong.
@@ -43,15 +45,16 @@ class GnssStream : public SensorStream {
   std::optional<Delivery> next() override;
 
  private:
-  struct Reported {
-    std::size_t zone = 0;
-    double sigma = 0.0;
-    double sigma_up = 0.0;
+  /// What the receiver says of its own accuracy.
+  struct Claim {
+    double sigma = 0.0;     ///< m
+    double sigma_up = 0.0;  ///< m
     GnssFix::Quality quality = GnssFix::Quality::None;
   };
-  std::optional<std::size_t> zoneAt(double t, const Eigen::Vector2d& p) const;
-  Eigen::Vector3d unitError(double t);
-  Reported reported(double t, const Reported& honest);
+  std::optional<std::size_t> zoneAt(double t, const Eigen::Vector3d& p_map) const;
+  void advanceError(double t);
+  Claim claim(double t, std::size_t zone, const Claim& honest);
+  GnssFix fix(const Eigen::Vector3d& p_map, const Claim& said) const;
 
   GnssConfig config_;
   std::shared_ptr<const Motion> motion_;
@@ -59,11 +62,10 @@ class GnssStream : public SensorStream {
   Ticker ticker_;
   RandomStream noise_;
   Eigen::Vector3d error_ = Eigen::Vector3d::Zero();  ///< in sigmas
-  std::optional<double> last_error_t_ = {};
-  std::optional<Reported> last_ = {};
-  double last_fix_t_ = 0.0;
-  double zone_entered_ = 0.0;
-  std::optional<std::size_t> zone_ = {};
+  std::optional<double> error_t_ = {};               ///< s, when error_ was drawn
+  std::optional<std::size_t> zone_ = {};             ///< of the last fix
+  double stale_until_ = 0.0;                         ///< s
+  Claim last_claim_ = {};
 };
 
 }  // namespace pos::sim

@@ -50,15 +50,12 @@ class LidarStream : public SensorStream {
  public:
   LidarStream(const LidarConfig& config, std::shared_ptr<const map::OccupancyGrid> grid,
               std::shared_ptr<const Motion> motion, const RunSetup& run);
+  ~LidarStream() override;
   std::optional<Delivery> next() override;
 
  private:
-  LidarConfig config_;
-  std::shared_ptr<const map::OccupancyGrid> grid_;
-  std::shared_ptr<const Motion> motion_;
-  Ticker ticker_;
-  RandomStream noise_;
-  RandomStream drops_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace pos::sim

@@ -16,10 +16,10 @@ struct PassagePlace {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< m, the point of the roadway that a passage fixes
 };
 
-/// ClosestApproach: the fix is stamped when the antenna was nearest, within sigma_time, and errs by `sigma`
-/// along the direction of travel.
-/// Reader (RFID): the read falls anywhere in the time within `radius`, uniformly; the fix errs by what the
-/// vehicle then is away from the place.
+/// ClosestApproach: recognised once the antenna has come nearest and gone `rise` farther again; stamped with
+/// the nearest moment, within sigma_time; errs by `sigma` along the way. Reader (RFID): read at a distance
+/// from the place uniform in (0, radius), on the way in or out with equal chance; at once when the vehicle
+/// stands within `radius`.
 enum class PassageStyle { ClosestApproach, Reader };
 
 struct PassageConfig {
@@ -29,6 +29,7 @@ struct PassageConfig {
   Eigen::Vector3d antenna_body = Eigen::Vector3d::Zero();  ///< m, FLU
   std::vector<PassagePlace> places = {};
   double radius = 10.0;       ///< m, farther passages are not seen
+  double rise = 1.0;          ///< m; ClosestApproach only
   double sigma = 0.3;         ///< m, along the way; ClosestApproach only
   double sigma_time = 0.0;    ///< s, of the moment; ClosestApproach only
   double sigma_across = 2.0;  ///< m, reported across the way and in height; nothing is drawn from it
@@ -39,8 +40,9 @@ struct PassageConfig {
 /// Throws ConfigError naming the first thing wrong (two places of one name, wrong ids with a single place).
 PassageConfig validated(PassageConfig config);
 
-/// One fix a visit: from coming within `radius` to leaving it again. Reported covariance: along the way
-/// sigma^2 + (speed sigma_time)^2, or radius^2 / 3 for a reader; across sigma_across^2.
+/// At most one fix a visit, from coming within `radius` of a place to leaving it. The fix says that the
+/// antenna was at the place's point. Reported covariance: along the way sigma^2 + (speed sigma_time)^2, or
+/// radius^2 / 3 for a reader; across sigma_across^2. An outage swallows the fixes recognised in it.
 class PassageStream : public SensorStream {
  public:
   PassageStream(const PassageConfig& config, std::shared_ptr<const Motion> motion, const RunSetup& run);
@@ -49,13 +51,22 @@ class PassageStream : public SensorStream {
  private:
   struct Visit {
     bool open = false;
-    double begin = 0.0;
-    double nearest_t = 0.0;
-    double nearest = 0.0;
+    bool done = false;
+    double begin = 0.0;      ///< s
+    double nearest_t = 0.0;  ///< s
+    double nearest = 0.0;    ///< m
+    double read_at = 0.0;    ///< m, Reader only
+    bool read_leaving = false;
+    bool missed = false;
+    std::size_t told = 0;  ///< the place that the fix will name
   };
   double distance(std::size_t place, double t) const;
-  void look(double t);
-  void close(std::size_t place, double t);
+  Visit begun(std::size_t place, double t, double d);
+  /// The moment of detection, once there is one.
+  std::optional<double> detected(std::size_t place, const Visit& visit, double t, double d) const;
+  double closestApproach(std::size_t place, const Visit& visit) const;
+  PassageFix fix(const PassagePlace& told, double t);
+  void look(std::size_t place, const Tick& tick);
 
   PassageConfig config_;
   std::shared_ptr<const Motion> motion_;
@@ -64,7 +75,6 @@ class PassageStream : public SensorStream {
   RandomStream noise_;
   std::vector<Visit> visits_;
   std::deque<Delivery> ready_ = {};
-  bool over_ = false;
 };
 
 }  // namespace pos::sim

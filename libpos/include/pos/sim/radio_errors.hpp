@@ -98,6 +98,7 @@ struct RangeZone {
 
 /// All of it. When several causes hide a link at once, the largest bias counts.
 struct RadioErrors {
+  double drop_probability = 0.0;  ///< of any single range
   std::vector<LinkError> links = {};
   LinkSpread spread = {};
   Multipath multipath = {};

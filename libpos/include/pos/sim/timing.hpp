@@ -37,7 +37,7 @@ struct Timing {
   double latency_jitter = 0.0;         ///< s, 1 sigma; the latency grows by |normal|, never shrinks
   double stamp_error = 0.0;            ///< s, stamp minus true moment: 0.2 = stamps 0.2 s late
   std::vector<TimeSpan> outages = {};  ///< nothing is delivered then
-  double drop_probability = 0.0;       ///< of any one measurement, outside outages
+  double drop_probability = 0.0;       ///< of any one tick, outside outages
   std::uint32_t stream = 0;            ///< random stream; every sensor of a scenario has its own
 };
 

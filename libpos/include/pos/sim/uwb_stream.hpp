@@ -50,8 +50,9 @@ struct UwbConfig {
   std::vector<Tag> tags = {};
   RangeSchedule schedule = {};
   RangeMode mode = RangeMode::Gaussian;
-  double sigma =
-      0.10;  ///< m; Gaussian: of a range; TagNoise, TagPosition: per axis; TwoWay: added to the range
+  /// m, 1 sigma. Gaussian: of a range. TagNoise, TagPosition: of each axis of the tag. TwoWay: of what is
+  /// added to the range; 0 when the receive jitter is to be the only noise.
+  double sigma = 0.10;
   double sigma_z = 0.0;               ///< m, TagNoise and TagPosition
   std::vector<RangeZone> zones = {};  ///< the first that contains the vehicle replaces sigma
   TwoWayConfig two_way = {};
