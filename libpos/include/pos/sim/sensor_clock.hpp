@@ -38,7 +38,7 @@ SensorTiming validated(const SensorTiming& timing);
 
 /// Which of the independent sequences of one sensor a random number belongs to, so that switching one error
 /// on leaves the others' numbers as they were.
-enum class Purpose : std::uint64_t { Timing = 0, Constants, Noise, Drift, Faults, Extra };
+enum class Purpose : unsigned { Timing = 0, Constants, Noise, Drift, Faults, Extra };
 
 /// Where a sensor's random numbers come from: the scenario's seed and a number of its own (by convention
 /// `streamOf(label)`, so that sensors do not depend on their order).
@@ -46,8 +46,9 @@ struct SensorSeed {
   std::uint64_t seed = 1;
   std::uint64_t stream = 0;
 
-  RandomStream sequence(Purpose purpose) const {
-    return RandomStream(seed, stream * 16U + static_cast<std::uint64_t>(purpose));
+  /// `part` tells apart like things in one sensor (its gyros from its accelerometers, left from right).
+  RandomStream sequence(Purpose purpose, unsigned part = 0) const {
+    return RandomStream(seed, stream * 64U + part * 8U + static_cast<std::uint64_t>(purpose));
   }
 };
 
@@ -59,7 +60,7 @@ struct StreamContext {
   double duration = 0.0;  ///< s, nothing is measured later
 };
 
-/// A stream number from a sensor's label (64-bit FNV-1a, its upper four bits given up).
+/// A stream number from a sensor's label (64-bit FNV-1a, its upper six bits given up).
 std::uint64_t streamOf(std::string_view label);
 
 /// Walks through a sensor's moments and says what becomes of each. Moment k is at phase + k / rate, computed
