@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "pos/core/angle.hpp"
 #include "pos/core/error.hpp"
 
@@ -37,6 +40,30 @@ TEST(LidarErrors, NoErrorsIsTheIdentity) {
 
 TEST(LidarErrors, RangeErrorIsScaleAndOffset) {
   EXPECT_DOUBLE_EQ(measuredRange(10.0, LidarErrors::paper()), 10.0 + 0.006 + 0.035);
+}
+
+// Spec B, B6.1: what the systematic errors alone do to an estimate that walks from leg to leg over 350 m, a
+// leg used from y = -d to -(d + 1.5) in the s-frame, 4 m beside the track: (lateral, longitudinal), m.
+TEST(LidarErrors, WalkFromLegToLegErrsAsTheTheorySays) {
+  struct Row {
+    double first;
+    double last;
+    double lateral;
+    double longitudinal;
+  };
+  const auto measured = [](double x, double y) -> std::pair<double, double> {
+    const double angle = measuredAngle(std::atan2(-x, y), LidarErrors::paper());
+    const double range = measuredRange(std::hypot(x, y), LidarErrors::paper());
+    return {-range * std::sin(angle), range * std::cos(angle)};
+  };
+  for (const Row& row :
+       {Row{0.0, -1.5, -2.286, 2.886}, Row{-4.5, -6.0, -1.470, 0.392}, Row{-9.0, -10.5, -0.601, 0.120},
+        Row{1.5, 0.0, -1.179, 3.448}, Row{10.5, 9.0, 0.536, 0.672}}) {
+    const auto [x0, y0] = measured(-4.0, row.first);
+    const auto [x1, y1] = measured(-4.0, row.last);
+    EXPECT_NEAR(350.0 / 1.5 * (x0 - x1), row.lateral, 0.001);
+    EXPECT_NEAR(350.0 / 1.5 * (y0 - y1 - 1.5), row.longitudinal, 0.001);
+  }
 }
 
 TEST(LidarErrors, RefusesAPolynomialThatTurnsBack) {

@@ -125,7 +125,9 @@ TEST(RayCast, AgreesWithTryingEveryCell) {
     const std::optional<double> fast = rayCast(grid, p, heading, 6.0);
     const std::optional<double> slow = bruteForce(grid, p, heading, 6.0);
     ASSERT_EQ(fast.has_value(), slow.has_value()) << p.transpose() << ' ' << heading;
-    if (fast) EXPECT_NEAR(*fast, *slow, 1e-9);
+    if (fast) {
+      EXPECT_NEAR(*fast, *slow, 1e-9);
+    }
     hits += fast ? 1 : 0;
   }
   EXPECT_GT(hits, 500);
