@@ -52,8 +52,7 @@ PassageStream::PassageStream(const PassageConfig& config, std::shared_ptr<const 
       noise_(randomStream(run, config_.timing, kNoise)),
       visits_(config_.places.size()) {}
 
-double PassageStream::distance(std::size_t place, double t) const {
-  const Kinematics body = motion_->at(t);
+double PassageStream::distance(std::size_t place, const Kinematics& body) const {
   return (body.p_map + body.R_map_body * config_.antenna_body - config_.places[place].p_map).norm();
 }
 
@@ -77,7 +76,8 @@ double PassageStream::closestApproach(std::size_t place, const Visit& visit) con
   double high = std::min(visit.nearest_t + 1.0 / config_.timing.rate, motion_->duration());
   for (int i = 0; i < 60; ++i) {
     const double width = high - low;
-    if (distance(place, high - kGolden * width) < distance(place, low + kGolden * width)) {
+    if (distance(place, motion_->at(high - kGolden * width)) <
+        distance(place, motion_->at(low + kGolden * width))) {
       high = low + kGolden * width;
     } else {
       low = high - kGolden * width;
@@ -113,9 +113,9 @@ PassageFix PassageStream::fix(const PassagePlace& told, double t) {
   return fix;
 }
 
-void PassageStream::look(std::size_t place, const Tick& tick) {
+void PassageStream::look(std::size_t place, const Tick& tick, const Kinematics& body) {
   Visit& visit = visits_[place];
-  const double d = distance(place, tick.t);
+  const double d = distance(place, body);
   if (!visit.open && d <= config_.radius) visit = begun(place, tick.t, d);
   if (!visit.open) return;
   if (d < visit.nearest) {
@@ -139,7 +139,8 @@ std::optional<Delivery> PassageStream::next() {
   while (ready_.empty()) {
     const std::optional<Tick> tick = ticker_.next();
     if (!tick) return {};
-    for (std::size_t place = 0; place < config_.places.size(); ++place) look(place, *tick);
+    const Kinematics body = motion_->at(tick->t);
+    for (std::size_t place = 0; place < config_.places.size(); ++place) look(place, *tick, body);
   }
   Delivery delivery = std::move(ready_.front());
   ready_.pop_front();

@@ -60,13 +60,13 @@ class PassageStream : public SensorStream {
     bool missed = false;
     std::size_t told = 0;  ///< the place that the fix will name
   };
-  double distance(std::size_t place, double t) const;
+  double distance(std::size_t place, const Kinematics& body) const;
   Visit begun(std::size_t place, double t, double d);
   /// The moment of detection, once there is one.
   std::optional<double> detected(std::size_t place, const Visit& visit, double t, double d) const;
   double closestApproach(std::size_t place, const Visit& visit) const;
   PassageFix fix(const PassagePlace& told, double t);
-  void look(std::size_t place, const Tick& tick);
+  void look(std::size_t place, const Tick& tick, const Kinematics& body);
 
   PassageConfig config_;
   std::shared_ptr<const Motion> motion_;
