@@ -85,12 +85,45 @@ Curve curveOf(const MotionStart& start, const std::vector<PathElement>& path) {
   return {start.p_map, std::move(pieces)};
 }
 
+bool isOpen(const DriveStep& step) {
+  return !step.duration && !step.length && !step.until;
+}
+
+/// Signed way of the steps after `first`, none of which may depend on where it begins.
+double wayAfter(const std::vector<DriveStep>& drive, std::size_t first, double speed) {
+  double way = 0.0;
+  for (std::size_t i = first; i < drive.size(); ++i) {
+    const std::string key = "drive[" + std::to_string(i) + "]";
+    if (isOpen(drive[i]) || drive[i].until) {
+      refuse("a step after the one that fills the path has no length of its own", key, "neither or until",
+             "duration or length");
+    }
+    const double mean = 0.5 * (speed + drive[i].speed_to.value_or(speed));
+    way += drive[i].duration ? mean * *drive[i].duration : std::copysign(*drive[i].length, mean);
+    speed = drive[i].speed_to.value_or(speed);
+  }
+  return way;
+}
+
+/// The same steps with the open one told where to end.
+std::vector<DriveStep> filled(std::vector<DriveStep> drive, double start_speed, double length) {
+  double speed = start_speed;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    speed = drive[i].speed_to.value_or(speed);
+    if (!isOpen(drive[i])) continue;
+    drive[i].until = length - wayAfter(drive, i + 1, speed);
+    break;
+  }
+  return drive;
+}
+
 }  // namespace
 
 std::unique_ptr<Motion> makePathMotion(const PathMotionConfig& config) {
   requireStart(config.start);
   Curve path = curveOf(config.start, config.path);
-  const SpeedPlan speeds(config.start.speed, config.drive, "drive");
+  const SpeedPlan speeds(config.start.speed, filled(config.drive, config.start.speed, path.length()),
+                         "drive");
   constexpr double kRounding = 1e-6;
   const SpeedPlan::Reach reach = speeds.reach();
   if (reach.lowest < -kRounding || reach.highest > path.length() + kRounding) {

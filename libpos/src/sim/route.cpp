@@ -212,6 +212,7 @@ RoutedPath routed(const Route& route) {
   }
   router.requireAllLaid();
   result.path = router.path();
+  for (const PathElement& element : result.path) result.length += *element.length;
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "pos/sim/vehicle.hpp"
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <set>
 

@@ -47,7 +47,8 @@ struct MotionStart {
 };
 
 /// How long and how fast: one entry of a list in which each goes on where the last one ended. One of
-/// duration, length and until says how long it takes.
+/// duration, length and until says how long it takes. On a path one step may have none of the three: it goes
+/// on for so long that the steps after it end at the path's end.
 struct DriveStep {
   std::optional<double> duration = {};  ///< s
   std::optional<double> length = {};    ///< m along the path, positive also when driven backwards
@@ -116,11 +117,12 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
-/// A route as path elements, and where it starts (speed 0). Throws ConfigError where bends overlap or a
+/// A route as path elements, how long it is, and where it starts (speed 0). Throws ConfigError where bends overlap or a
 /// change of grade lies in a bend.
 struct RoutedPath {
   MotionStart start = {};
   std::vector<PathElement> path = {};
+  double length = 0.0;  ///< m along the path, grades counted
 };
 RoutedPath routed(const Route& route);
 
