@@ -173,7 +173,8 @@ class EncoderStream final : public SensorStream {
 std::unique_ptr<SensorStream> makeEncoderStream(const EncoderModel& model, const Vehicle& vehicle,
                                                 const StreamContext& context) {
   ensure(context.motion != nullptr, "wheels need a motion");
-  if (vehicle.steering == Steering::Guided) {
+  // A guided machine may have a haulage wheel that counts: then its vehicle file says how large it is.
+  if (!(vehicle.wheel_radius > 0.0) || !(vehicle.encoder_track > 0.0)) {
     refuse("the vehicle has no wheels to count", "sensor", model.sensor, "a vehicle on wheels");
   }
   return std::make_unique<EncoderStream>(model, validated(vehicle), context);

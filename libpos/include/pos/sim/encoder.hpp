@@ -8,7 +8,7 @@
 
 #include "pos/sim/motion.hpp"
 #include "pos/sim/sensor.hpp"
-#include "pos/sim/timing.hpp"
+#include "pos/sim/sensor_clock.hpp"
 #include "pos/sim/vehicle.hpp"
 
 namespace pos::sim {

@@ -1,4 +1,4 @@
-#include "pos/sim/timing.hpp"
+#include "pos/sim/sensor_clock.hpp"
 
 #include <gtest/gtest.h>
 
