@@ -154,6 +154,26 @@ TEST(Encoders, SpeedsAreThoseOfTheWheels) {
   }
 }
 
+TEST(Encoders, NoiseOfTheSpeedsHasItsSigma) {
+  const std::shared_ptr<const Motion> motion =
+      makeMotion(SegmentMotionConfig{.start = {.speed = 2.0}, .segments = {papers::wait(100)}});
+  const EncoderModel model{.output = EncoderModel::Output::Speeds,
+                           .timing = {.rate = 50},
+                           .ticks_per_turn = 0,
+                           .speed_sigma = 0.03};
+  const auto all = deliveries(model, ackermannCar(), motion);
+  const auto n = static_cast<double>(all.size());
+  double left = 0.0;
+  double both = 0.0;
+  for (const Delivery& delivery : all) {
+    const auto& speeds = readingOf<WheelSpeeds>(delivery);
+    left += (speeds.left - 2.0) * (speeds.left - 2.0) / n;
+    both += (speeds.left - 2.0) * (speeds.right - 2.0) / n;
+  }
+  EXPECT_NEAR(left / 9e-4, 1.0, 4.0 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(both / 9e-4, 0.0, 4.0 / std::sqrt(n));
+}
+
 TEST(Encoders, RopeHoldsTheBodyWhileTheWheelsTurn) {
   const std::shared_ptr<const Motion> motion = makeMotion(papers::rope());
   const Vehicle car = differentialCar();
