@@ -19,29 +19,11 @@
 #include <variant>
 
 #include "pos/io/option_core.hpp"
+#include "pos/io/option_values.hpp"
 
 namespace pos::io {
 
 namespace detail {
-
-template <class M>
-struct Slot {
-  using Value = M;
-  static constexpr bool kOptional = false;
-  static const M* held(const M& member) { return &member; }
-  static M& filled(M& member) { return member; }
-};
-template <class M>
-struct Slot<std::optional<M>> {
-  using Value = M;
-  static constexpr bool kOptional = true;
-  static const M* held(const std::optional<M>& member) { return member ? &*member : nullptr; }
-  static M& filled(std::optional<M>& member) { return member.emplace(); }
-};
-template <class T, class Member>
-using SlotOf = Slot<std::remove_cvref_t<std::invoke_result_t<Member, T&>>>;
-template <class T, class Member>
-using ValueOf = typename SlotOf<T, Member>::Value;
 
 template <std::integral I>
 I readWhole(const Field& field) {
@@ -56,7 +38,6 @@ I readWhole(const Field& field) {
 
 YamlNode writtenNumber(double value, const std::string& key);
 std::optional<YamlNode> writtenText(const std::string& value);
-
 }  // namespace detail
 
 /// A name in the file for each value of an enumeration.
@@ -79,6 +60,26 @@ class OptionTable {
   OptionTable& number(std::string key, Member member, Range range, std::string text) {
     return leaf({.kind = Option::Kind::Number, .key = key, .text = std::move(text), .range = range}, member,
                 readNumber, [key](double value) { return detail::writtenNumber(value, key); });
+  }
+
+  /// [1, 2, 3]: as many as an Eigen vector holds, or any number of them for a std::vector.
+  template <class Member>
+  OptionTable& numbers(std::string key, Member member, Range range, std::string text) {
+    using Values = detail::ValueOf<T, Member>;
+    using List = detail::NumberList<Values>;
+    return leaf(
+        {.kind = Option::Kind::Numbers,
+         .key = key,
+         .text = std::move(text),
+         .range = range,
+         .count = List::kCount},
+        member, [](const Field& field) { return List::of(readNumbers(field)); },
+        [key](const Values& values) {
+          YamlNode list = listNode();
+          for (const double value : List::values(values))
+            list.items.push_back(detail::writtenNumber(value, key));
+          return list;
+        });
   }
 
   template <class Member>
