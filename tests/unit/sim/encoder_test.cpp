@@ -210,7 +210,7 @@ TEST(Encoders, MicroSlipGrowsWithTheRootOfTheDistance) {
   double left = 0.0;
   double both = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    const auto& ticks = readingOf<WheelTicks>(deliveries(model, differentialCar(), motion, seed).back());
+    const WheelTicks ticks = readingOf<WheelTicks>(deliveries(model, differentialCar(), motion, seed).back());
     const double l = static_cast<double>(ticks.left) * tick - 100.0;
     const double r = static_cast<double>(ticks.right) * tick - 100.0;
     left += l * l / kRuns;
@@ -234,7 +234,7 @@ TEST(Encoders, ClaimedCovarianceIsThatOfTheIncrements) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d claimed;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    const auto& odometry =
+    const OdometryIncrement odometry =
         readingOf<OdometryIncrement>(deliveries(model, ackermannCar(), motion, seed).back());
     tangents.emplace_back(odometry.increment.x, odometry.increment.y, odometry.increment.yaw);
     mean += tangents.back() / kRuns;
