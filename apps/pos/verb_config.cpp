@@ -21,7 +21,9 @@ CLI::App* addWriter(CLI::App& parent, const char* name, const char* about,
   CLI::App* verb = parent.add_subcommand(name, about);
   auto output = std::make_shared<Output>();
   verb->add_option("--out", output->file, "File to write, instead of standard output");
-  verb->callback([output, text = std::move(text)] { output->write(text()); });
+  verb->callback([verb, output, text = std::move(text)] {
+    if (verb->get_subcommands().empty()) output->write(text());  // `schema map` is not also `schema`
+  });
   return verb;
 }
 

@@ -87,6 +87,13 @@ TEST_F(Simulate, AReportIsMadeAgainFromTheScenario) {
   EXPECT_THAT(bench_.read("run/report.html"), HasSubstr("strict"));
 }
 
+TEST_F(Simulate, SchemasAreOneDocumentEach) {
+  for (const char* kind : {"map", "scenario"}) {
+    const json schema = json::parse(expectOk({"config", "schema", kind}).out);
+    EXPECT_TRUE(schema.contains("properties")) << kind;
+  }
+}
+
 TEST_F(Simulate, WhatIsWrongIsToldByPlaceAndKey) {
   expectRefusal({"simulate", lane_}, 2, "--out");
   expectRefusal({"simulate", "nothing.yaml", "--out", "x"}, 3, "nothing.yaml");
