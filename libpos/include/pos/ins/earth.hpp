@@ -51,9 +51,9 @@ class Earth {
 /// Radii of curvature of the ellipsoid along the meridian and across it, m.
 double meridianRadius(double latitude);
 double transverseRadius(double latitude);
-/// Normal gravity of WGS-84 (m/s^2) at latitude (rad) and height (m above the ellipsoid), free air. The series
-/// in Jiang et al. 2024 is an older one and differs by up to 7e-5 m/s^2. Below ground the rock above pulls the
-/// other way, at most 1.1 mm/s^2 at 500 m: an accelerometer bias takes that up.
+/// Normal gravity of WGS-84 (m/s^2) at latitude (rad) and height (m above the ellipsoid), free air. The
+/// series in Jiang et al. 2024 is an older one and differs by up to 7e-5 m/s^2. Below ground the rock above
+/// pulls the other way, at most 1.1 mm/s^2 at 500 m: an accelerometer bias takes that up.
 double normalGravity(double latitude, double height);
 
 }  // namespace pos::ins
