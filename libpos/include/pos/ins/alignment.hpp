@@ -12,6 +12,8 @@ class RestAverage {
  public:
   void add(const ImuIncrement& sample);
   void forget() { *this = {}; }
+  /// All of it as one increment.
+  ImuIncrement sum() const { return {angle_, velocity_, time_}; }
   double time() const { return time_; }                        ///< s
   Eigen::Vector3d rate() const { return angle_ / time_; }      ///< rad/s in b, Earth rate and bias
   Eigen::Vector3d force() const { return velocity_ / time_; }  ///< m/s^2 in b
