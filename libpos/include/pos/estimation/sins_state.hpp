@@ -2,6 +2,7 @@
 /// State and models of `sins_dr` (docs/math/sins_dr.md). Pure functions.
 
 #include "pos/core/belief.hpp"
+#include "pos/core/pose3.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/filters/ekf.hpp"
 #include "pos/ins/alignment.hpp"
