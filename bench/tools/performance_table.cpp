@@ -102,10 +102,20 @@ Topic replay() {
                       {"the same with three times the log", "replay_ours/3", "memory_growth_kb", "kB"}}};
 }
 
+Topic inertial() {
+  return {.title = "Simulated inertial unit",
+          .yardstick = "its random numbers alone",
+          .comparisons = {{"one sample, shearer on a bent conveyor", "sample_ours/conveyor", "sample_random",
+                           "ns_per_sample", "ns", 0.0},
+                          {"one sample, winding drive", "sample_ours/winding", "sample_random",
+                           "ns_per_sample", "ns", 0.0}},
+          .figures = {{"growth of the peak memory", "sample_ours/conveyor", "memory_growth_kb", "kB"}}};
+}
+
 }  // namespace
 
 std::vector<Topic> topics() {
-  return {particleFilter(), rangeOdometry(), reading(), replay()};
+  return {particleFilter(), rangeOdometry(), reading(), replay(), inertial()};
 }
 
 json parsed(const std::string& text) {

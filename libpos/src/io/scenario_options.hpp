@@ -5,6 +5,17 @@
 #include "pos/sim/scenario.hpp"
 
 namespace pos::io {
+namespace detail {
+
+/// [at the zone's beginning, at its end].
+template <>
+struct NumberList<sim::SigmaRamp> {
+  static constexpr std::size_t kCount = 2;
+  static sim::SigmaRamp of(const std::vector<double>& values) { return {values[0], values[1]}; }
+  static std::vector<double> values(const sim::SigmaRamp& ramp) { return {ramp.first, ramp.last}; }
+};
+
+}  // namespace detail
 
 OptionTable<sim::Vehicle> vehicleOptions();
 OptionTable<sim::MotionConfig> motionOptions();
@@ -42,6 +53,30 @@ OptionTable<Span> spanOptions(const std::string& key, const std::string& text) {
       .required()
       .number("to_s", &Span::to, anything(), "End; the moment itself is outside.")
       .required();
+}
+
+/// The keys of a zone that `where` gives.
+template <class T>
+OptionTable<T>& withZone(OptionTable<T>& table) {
+  return table
+      .text(
+          "name", [](auto& zone) -> auto& { return zone.where.name; }, "Name in messages.")
+      .table(
+          "time", [](auto& zone) -> auto& { return zone.where.time; },
+          spanOptions<sim::TimeSpan>("time", "When it holds; always where absent."),
+          "When it holds; always where absent.")
+      .list(
+          "place", [](auto& zone) -> auto& { return zone.where.place; }, outlinePointOptions(),
+          "Outline in which it holds; everywhere where empty.")
+      .numbers(
+          "ramp_from_m", [](auto& zone) -> auto& { return zone.where.ramp_from; }, anything(),
+          "x and y at which the zone begins, where its noise changes along a way instead of in time.")
+      .numbers(
+          "ramp_to_m", [](auto& zone) -> auto& { return zone.where.ramp_to; }, anything(),
+          "x and y at which it ends.")
+      .numbers(
+          "sigma_m", [](auto& zone) -> auto& { return zone.sigma; }, atLeast(0),
+          "Standard deviation at its beginning and at its end, evenly in the logarithm between.");
 }
 
 /// The two timing structs of the sensors under common names.

@@ -80,7 +80,7 @@ Eigen::Vector3d TriadNoise::rounded(const Eigen::Vector3d& value, ImuSample::Kin
   };
   if (kind == ImuSample::Kind::Rates) return whole(value);
   // A counter loses nothing: what was not given out now comes with the next increment.
-  const Eigen::Vector3d given = whole(value + remainder_);
+  Eigen::Vector3d given = whole(value + remainder_);
   remainder_ += value - given;
   return given;
 }

@@ -108,8 +108,9 @@ void LegStream::State::cast(const LegCylinder& cylinder) {
   if (first > last) std::swap(first, last);
   const int begin = std::max(0, static_cast<int>(std::ceil(first)));
   const int end = std::min(c.beams - 1, static_cast<int>(std::floor(last)));
+  const LegSlice slice(cylinder);
   for (int beam = begin; beam <= end; ++beam) {
-    if (const std::optional<double> range = beamRange(cylinder, scanner.lookAngle(beam))) {
+    if (const std::optional<double> range = slice.beamRange(scanner.look(beam))) {
       double& truth = truths[static_cast<std::size_t>(beam)];
       truth = std::min(truth, *range);
     }

@@ -24,9 +24,8 @@ struct LidarStream::State {
   std::vector<double> truths;
 
   /// Way along a beam to the rock, m.
-  double castOne(const Pose3& T_map_sensor, double angle) const {
-    const Eigen::Vector3d way =
-        T_map_sensor.rotation * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  double castOne(const Pose3& T_map_sensor, const Eigen::Vector2d& look) const {
+    const Eigen::Vector3d way = T_map_sensor.rotation * Eigen::Vector3d(look.x(), look.y(), 0.0);
     const double in_plan = std::hypot(way.x(), way.y());
     if (in_plan < 1e-6) return kNoReturn;
     const std::optional<double> hit =
@@ -38,7 +37,7 @@ struct LidarStream::State {
   Scan2D scan(double t) {
     const Pose3 T_map_sensor = poseOf(motion->at(t)) * config.scanner.T_body_sensor;
     for (std::size_t i = 0; i < truths.size(); ++i) {
-      truths[i] = castOne(T_map_sensor, scanner.lookAngle(static_cast<int>(i)));
+      truths[i] = castOne(T_map_sensor, scanner.look(static_cast<int>(i)));
     }
     return scanner.sweep(t, truths);
   }

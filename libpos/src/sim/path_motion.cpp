@@ -60,9 +60,10 @@ double lengthOf(const PathElement& element, const std::string& key) {
   requirePositive(*element.radius, key + ".radius");
   const Change& change = element.turn.by != 0.0 ? element.turn : element.climb;
   const double length = lengthFor(change, *element.radius);
-  if (!(length > 0.0))
+  if (!(length > 0.0)) {
     refuse("a radius, but nothing turns", key + ".radius", std::to_string(*element.radius),
            "a turn or a climb");
+  }
   return length;
 }
 

@@ -9,11 +9,17 @@ namespace pos::sim {
 Scanner::Scanner(const ScannerConfig& config, const Timing& timing, const RunSetup& run)
     : config_(config),
       noise_(randomStream(run, timing, Ticker::kFirstPurpose)),
-      drops_(randomStream(run, timing, Ticker::kFirstPurpose + 1)) {}
+      drops_(randomStream(run, timing, Ticker::kFirstPurpose + 1)) {
+  for (int beam = 0; beam < config_.beams; ++beam) {
+    const double angle = trueAngle(reportedAngle(beam), config_.errors);
+    looks_.emplace_back(std::cos(angle), std::sin(angle));
+  }
+}
 
-double Scanner::lookAngle(int beam) {
-  const double angle = trueAngle(reportedAngle(beam), config_.errors);
-  return config_.sigma_angle > 0.0 ? angle + noise_.normal(0.0, config_.sigma_angle) : angle;
+Eigen::Vector2d Scanner::look(int beam) {
+  const Eigen::Vector2d& straight = looks_[static_cast<std::size_t>(beam)];
+  if (config_.sigma_angle == 0.0) return straight;
+  return rotation2(noise_.normal(0.0, config_.sigma_angle)) * straight;
 }
 
 double Scanner::reportedAngleOf(double truth) {

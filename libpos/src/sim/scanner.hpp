@@ -19,8 +19,8 @@ class Scanner {
   Scanner(const ScannerConfig& config, const Timing& timing, const RunSetup& run);
 
   double reportedAngle(int beam) const { return config_.angle_first + beam * config_.angle_step; }
-  /// Where that beam truly looks, rad, with its random part.
-  double lookAngle(int beam);
+  /// Where that beam truly looks, unit vector in the scan plane, with its random part.
+  Eigen::Vector2d look(int beam);
   /// The angle reported for a target at `truth` rad, with its random part.
   double reportedAngleOf(double truth);
   /// The range reported for a true one (m); nothing when lost, out of limits, or kNoReturn.
@@ -32,6 +32,7 @@ class Scanner {
   double dropProbability(double t) const;
 
   ScannerConfig config_;
+  std::vector<Eigen::Vector2d> looks_ = {};  ///< without the random part
   RandomStream noise_;
   RandomStream drops_;
 };

@@ -158,6 +158,21 @@ void requireUniqueNames(const std::vector<SensorEntry>& sensors) {
   }
 }
 
+/// What a sensor's own configuration has wrong before any map is there.
+void requireSound(const SensorEntry& entry) {
+  std::visit(
+      [&](auto model) {
+        if constexpr (requires { model.config.sensor; }) {
+          model.config.sensor = entry.name;
+          (void)validated(model.config);
+        } else {
+          model.sensor = entry.name;
+          (void)validated(model);
+        }
+      },
+      entry.model);
+}
+
 void requireMounts(const SensorEntry& entry, const Vehicle& vehicle) {
   if (!entry.mount.empty()) (void)vehicle.mount(entry.mount);
   const auto* uwb = std::get_if<UwbConfig>(&entry.model);
@@ -197,10 +212,13 @@ std::unique_ptr<SensorStream> sensorStream(const SensorEntry& entry, const std::
 
 Scenario validated(Scenario scenario) {
   under("vehicle", [&] { (void)validated(scenario.vehicle); });
+  under("motion", [&] { (void)makeMotion(scenario.motion); });
   requireUniqueNames(scenario.sensors);
   for (std::size_t i = 0; i < scenario.sensors.size(); ++i) {
-    under("sensors[" + std::to_string(i) + "]",
-          [&] { requireMounts(scenario.sensors[i], scenario.vehicle); });
+    under("sensors[" + std::to_string(i) + "]", [&] {
+      requireMounts(scenario.sensors[i], scenario.vehicle);
+      requireSound(scenario.sensors[i]);
+    });
   }
   if (scenario.duration && !(*scenario.duration > 0.0)) {
     refuse("the scenario has no time", "duration", "give more than 0 s, or leave it out");

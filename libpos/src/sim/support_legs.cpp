@@ -40,17 +40,25 @@ SupportSpan supportsNear(const SupportRow& row, double station, double reach) {
           .last = static_cast<int>(std::clamp(std::floor(middle + half) + 1.0, 0.0, last))};
 }
 
-std::optional<double> beamRange(const LegCylinder& leg, double angle) {
-  // Beam s u against the cylinder, both seen along its axis: |s u' - c'| = r.
-  const Eigen::Vector3d u(std::cos(angle), std::sin(angle), 0.0);
-  const Eigen::Vector3d u_across = u - leg.axis * leg.axis.dot(u);
-  const Eigen::Vector3d c_across = leg.point - leg.axis * leg.axis.dot(leg.point);
-  const double a = u_across.squaredNorm();
-  const double b = u_across.dot(c_across);
-  const double c = c_across.squaredNorm() - leg.radius * leg.radius;
-  const double root = b * b - a * c;
-  if (c <= 0.0 || b <= 0.0 || root < 0.0) return {};
+LegSlice::LegSlice(const LegCylinder& leg) : axis_(leg.axis.head<2>()) {
+  const Eigen::Vector3d across = leg.point - leg.axis * leg.axis.dot(leg.point);
+  across_ = across.head<2>();
+  c_ = across.squaredNorm() - leg.radius * leg.radius;
+}
+
+std::optional<double> LegSlice::beamRange(const Eigen::Vector2d& direction) const {
+  // Beam s u and axis point m, both without their part along the axis: |s u' - m'|^2 = r^2, that is
+  // a s^2 - 2 b s + c = 0 with a = |u'|^2 = 1 - (u . axis)^2 and b = u' . m' = u . m'.
+  const double slant = axis_.dot(direction);
+  const double a = 1.0 - slant * slant;
+  const double b = across_.dot(direction);
+  const double root = b * b - a * c_;
+  if (c_ <= 0.0 || b <= 0.0 || root < 0.0) return {};
   return (b - std::sqrt(root)) / a;
+}
+
+std::optional<double> beamRange(const LegCylinder& leg, double angle) {
+  return LegSlice(leg).beamRange({std::cos(angle), std::sin(angle)});
 }
 
 LegEllipse cutByScanPlane(const LegCylinder& leg) {

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/sim/simulation.hpp"
@@ -33,11 +35,12 @@ std::string nameOf(const ::testing::TestParamInfo<fs::path>& info) {
 class ScenarioFile : public ::testing::TestWithParam<fs::path> {
  protected:
   ScenarioFile() : scenario_(loadScenario(GetParam(), {}, "/usr/share/mrpt")) {
+    const GridLoader grids = [](const fs::path& file) { return loadGrid(file.string()); };
     map_ = std::make_shared<const map::TunnelMap>(
-        scenario_.map ? loadMap(*scenario_.map, "/usr/share/mrpt", {}) : map::TunnelMap{});
+        scenario_.map ? loadMap(*scenario_.map, "/usr/share/mrpt", grids) : map::TunnelMap{});
   }
 
-  /// The first seconds of motion (or of the scenario, where it never rests) as measurements.
+  /// The first seconds of the scenario as measurements.
   std::vector<Measurement> simulated(std::uint64_t seed) const {
     sim::Scenario shortened = scenario_;
     shortened.duration = kShort;
@@ -93,6 +96,17 @@ TEST_P(ScenarioFile, EverythingSurvivesTheRawlogAndNoTruthIsInIt) {
   }
 }
 
+class VehicleFile : public ::testing::TestWithParam<fs::path> {};
+
+TEST_P(VehicleFile, IsAVehicleThatAScenarioCanName) {
+  const std::string text = "schema: 1\nname: try\nvehicle_file: " + GetParam().string() +
+                           "\nmotion: {type: segments, segments: [{duration_s: 1}]}\n"
+                           "sensors: [{name: imu, type: imu, mount: imu}]\n";
+  const sim::Scenario scenario = scenarioFrom(parseYaml(text, "/elsewhere/run.yaml"), {});
+  EXPECT_EQ(scenario.vehicle.name, GetParam().stem().string());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, VehicleFile, ::testing::ValuesIn(files("configs/vehicles")), nameOf);
 INSTANTIATE_TEST_SUITE_P(All, ScenarioFile, ::testing::ValuesIn(files("configs/scenarios")), nameOf);
 
 }  // namespace

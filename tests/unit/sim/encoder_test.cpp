@@ -154,6 +154,26 @@ TEST(Encoders, SpeedsAreThoseOfTheWheels) {
   }
 }
 
+TEST(Encoders, NoiseOfTheSpeedsHasItsSigma) {
+  const std::shared_ptr<const Motion> motion =
+      makeMotion(SegmentMotionConfig{.start = {.speed = 2.0}, .segments = {papers::wait(100)}});
+  const EncoderModel model{.output = EncoderModel::Output::Speeds,
+                           .timing = {.rate = 50},
+                           .ticks_per_turn = 0,
+                           .speed_sigma = 0.03};
+  const auto all = deliveries(model, ackermannCar(), motion);
+  const auto n = static_cast<double>(all.size());
+  double left = 0.0;
+  double both = 0.0;
+  for (const Delivery& delivery : all) {
+    const auto& speeds = readingOf<WheelSpeeds>(delivery);
+    left += (speeds.left - 2.0) * (speeds.left - 2.0) / n;
+    both += (speeds.left - 2.0) * (speeds.right - 2.0) / n;
+  }
+  EXPECT_NEAR(left / 9e-4, 1.0, 4.0 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(both / 9e-4, 0.0, 4.0 / std::sqrt(n));
+}
+
 TEST(Encoders, RopeHoldsTheBodyWhileTheWheelsTurn) {
   const std::shared_ptr<const Motion> motion = makeMotion(papers::rope());
   const Vehicle car = differentialCar();
@@ -190,7 +210,7 @@ TEST(Encoders, MicroSlipGrowsWithTheRootOfTheDistance) {
   double left = 0.0;
   double both = 0.0;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    const auto& ticks = readingOf<WheelTicks>(deliveries(model, differentialCar(), motion, seed).back());
+    const WheelTicks ticks = readingOf<WheelTicks>(deliveries(model, differentialCar(), motion, seed).back());
     const double l = static_cast<double>(ticks.left) * tick - 100.0;
     const double r = static_cast<double>(ticks.right) * tick - 100.0;
     left += l * l / kRuns;
@@ -214,7 +234,7 @@ TEST(Encoders, ClaimedCovarianceIsThatOfTheIncrements) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d claimed;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
-    const auto& odometry =
+    const OdometryIncrement odometry =
         readingOf<OdometryIncrement>(deliveries(model, ackermannCar(), motion, seed).back());
     tangents.emplace_back(odometry.increment.x, odometry.increment.y, odometry.increment.yaw);
     mean += tangents.back() / kRuns;

@@ -114,6 +114,22 @@ TEST(GnssStream, StaleCovarianceLagsTheChangeByItsTime) {
   }
 }
 
+TEST(GnssStream, MaskedZoneMakesTheReceiverForgetItsStaleReport) {
+  GnssConfig config = plain();
+  config.stale = 10.0;
+  config.zones = {{.where = {.time = TimeSpan{0.0, 5.0}}, .sigma = {0.02, 0.02}},
+                  {.where = {.time = TimeSpan{5.0, 6.0}}, .sigma = {1.0, 1.0}},
+                  {.where = {.time = TimeSpan{6.0, 7.0}}, .masked = true},
+                  {.where = {.name = "valley",
+                             .time = TimeSpan{7.0, 9.0},
+                             .ramp_from = Eigen::Vector2d(0, 0),
+                             .ramp_to = Eigen::Vector2d(9, 0)},
+                   .sigma = {0.1, 1.0}}};
+  for (const Fix& fix : fixes(config, driving({0, 0, 0}, {1, 0, 0}, 20.0))) {
+    EXPECT_NEAR(fix.sigma, fix.t < 6.0 ? 0.02 : 0.1 * std::pow(10.0, fix.t / 9.0), 1e-9) << fix.t;
+  }
+}
+
 // Spec B A8.3: 0.02 m growing log-linearly to 1.0 m over the incline, x = 11 to 27, then nothing.
 TEST(GnssStream, SigmaGrowsLogLinearlyDownTheInclineByPlace) {
   const Outline incline{{11, -2}, {27, -2}, {27, 2}, {11, 2}};

@@ -205,6 +205,22 @@ TEST(ImuErrors, SameSeedSameBytesOtherSeedOthers) {
   }
 }
 
+TEST(ImuErrors, AStreamDoesNotKnowWhoElseRuns) {
+  const auto motion = rest(2);
+  const auto alone = deliveries({.errors = automotiveMems()}, motion, 5);
+  const auto earth = std::make_shared<Earth>(EarthConfig{});
+  const auto streamNamed = [&](const std::string& name) {
+    const StreamContext context{.motion = motion, .seed = {5, streamOf(name)}, .duration = 2.0};
+    return makeImuStream({.sensor = name, .errors = automotiveMems()}, earth, context);
+  };
+  const auto first = streamNamed("imu");
+  const auto second = streamNamed("imu2");
+  for (const Delivery& delivery : alone) {
+    EXPECT_EQ(sampleOf(delivery).linear, sampleOf(*first->next()).linear);
+    EXPECT_NE(sampleOf(delivery).linear, sampleOf(*second->next()).linear);
+  }
+}
+
 TEST(ImuErrors, LostSamplesAndOneMoreErrorLeaveTheOtherNumbersAsTheyWere) {
   ImuModel model = withGyro({.noise_density = 1e-3}, 100.0);
   const auto motion = rest(2);

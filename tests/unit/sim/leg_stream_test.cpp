@@ -193,10 +193,11 @@ TEST(LegStream, PointsAreTheLegsThemselves) {
 
 TEST(LegStream, MountErrorTurnsWhatTheNominalMountSays) {
   LegConfig config = quiet(LegModel::Points);
-  config.mount_error = {-0.0002, 0.0, 0.004};
+  config.mount_error = {-0.02, 0.01, 0.004};
+  config.scanner.T_body_sensor = Pose3::fromXyzYawPitchRoll(0.0, 0.0, 0.0, 0.5, 0.1, 0.0);
   const Eigen::AngleAxisd turn(config.mount_error.norm(), config.mount_error.normalized());
   for (const Scan2D& scan : scans(config, fixedRow(config), standingAt(150.3))) {
-    const Eigen::Vector3d true_body = turn * pointOf(scan);  // C_true = exp(error) C_nominal
+    const Eigen::Vector3d true_body = turn * pointOf(scan);  // body axes: C_true = exp(error) C_nominal
     EXPECT_NEAR(true_body.y(), 4.0, 2e-6);
     EXPECT_NEAR(true_body.z(), 0.0, 2e-6);
   }

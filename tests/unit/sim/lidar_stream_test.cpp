@@ -231,6 +231,18 @@ TEST(LidarStream, ReturnsBeyondItsLimitsAreInvalid) {
   }
 }
 
+TEST(LidarStream, RangeThatWouldBeNegativeIsInvalid) {
+  LidarConfig config = plain();
+  config.scanner.errors.offset = -6.0;
+  const auto all = scans(config, standing({7, 4, 1}, 0.0));
+  for (std::size_t i = 0; i < all[0].ranges.size(); ++i) {
+    const double wall = toWall({7, 4}, all[0].angle_first + static_cast<double>(i) * all[0].angle_step);
+    if (std::abs(wall - 6.0) > 1e-6) {
+      EXPECT_EQ(all[0].valid[i] != 0, wall > 6.0) << i;
+    }
+  }
+}
+
 TEST(LidarStream, SameSeedSameBytes) {
   LidarConfig config = plain();
   config.scanner.sigma_range = 0.01;

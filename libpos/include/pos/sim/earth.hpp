@@ -33,6 +33,8 @@ class Earth {
 
   /// m/s^2 in map axes at a map point: attraction and centrifugal together; the plumb line.
   Eigen::Vector3d gravityAt(const Eigen::Vector3d& p_map) const;
+  /// Whether gravity is the same everywhere (all but Ellipsoid).
+  bool uniform() const { return kind_ != EarthKind::Ellipsoid; }
   /// rad/s, the map against the stars, in map axes.
   const Eigen::Vector3d& rotation() const { return rotation_; }
 

@@ -117,8 +117,8 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
-/// A route as path elements, how long it is, and where it starts (speed 0). Throws ConfigError where bends overlap or a
-/// change of grade lies in a bend.
+/// A route as path elements, how long it is, and where it starts (speed 0). Throws ConfigError where bends
+/// overlap or a change of grade lies in a bend.
 struct RoutedPath {
   MotionStart start = {};
   std::vector<PathElement> path = {};

@@ -48,7 +48,7 @@ struct SensorSeed {
 
   /// `part` tells apart like things in one sensor (its gyros from its accelerometers, left from right).
   RandomStream sequence(Purpose purpose, unsigned part = 0) const {
-    return RandomStream(seed, stream * 64U + part * 8U + static_cast<std::uint64_t>(purpose));
+    return RandomStream(seed, stream * 64U + std::uint64_t{part} * 8U + static_cast<std::uint64_t>(purpose));
   }
 };
 

@@ -51,8 +51,21 @@ struct LegCylinder {
   double radius = 0.15;
 };
 
-/// Distance along the beam at `angle` (rad) in the scan plane z = 0 to the cylinder's near side; nothing when
-/// the beam misses, or starts inside.
+/// A cylinder made ready for many beams.
+class LegSlice {
+ public:
+  explicit LegSlice(const LegCylinder& leg);
+  /// Distance along the beam (unit vector in the scan plane z = 0) to the cylinder's near side; nothing when
+  /// the beam misses, or starts inside.
+  std::optional<double> beamRange(const Eigen::Vector2d& direction) const;
+
+ private:
+  Eigen::Vector2d axis_;    // scan-plane part of the axis
+  Eigen::Vector2d across_;  // scan-plane part of the shortest way from the scanner to the axis
+  double c_;                // its square less the radius's
+};
+
+/// The same for one beam at `angle` rad.
 std::optional<double> beamRange(const LegCylinder& leg, double angle);
 
 /// The ellipse in which the scan plane cuts the cylinder.
