@@ -53,7 +53,9 @@ using testing::numericJacobian;
 
 /// Numeric H of a quantity whose truth is zero (or a reading): d quantity / d tangent = -d nu / d tangent.
 template <class Function>
-void expectH(const SinsDrState& x, const Function& innovation, double tolerance = 1e-6) {
+void expectH(const SinsDrState& x, const Function& innovation, double flat_tolerance = 1e-6) {
+  // A step of 1e-5 m is 1.6e-12 rad of longitude: rounding alone costs 1e-4 on the ellipsoid.
+  const double tolerance = x.earth.isFlat() ? flat_tolerance : std::max(flat_tolerance, 3e-4);
   const auto analytic = innovation(x);
   const Eigen::MatrixXd numeric = numericJacobian<SinsDrState>(
       x, 21, [&](const SinsDrState& y) -> Eigen::VectorXd { return -innovation(y).nu; }, 1e-5);
@@ -118,9 +120,8 @@ TEST(SinsDrModels, WheelRowsOfFAreTheDerivativesOfRolling) {
 }
 
 TEST(SinsDrModels, ReanchoringMakesTheDifferenceKnownAndKeepsTheRest) {
-  Belief<SinsDrState> belief{sinsSample(ins::Earth::flat(), 0.4, 0.1), {}};
   const Matrix<21, 21> A = Matrix<21, 21>::Random();
-  belief.covariance = A * A.transpose();
+  Belief<SinsDrState> belief(sinsSample(ins::Earth::flat(), 0.4, 0.1), A * A.transpose());
   const Matrix<21, 21> before = belief.covariance;
   reanchor(belief);
   const auto H = positionDifference(belief.mean, 0.0).H;
