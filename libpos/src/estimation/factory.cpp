@@ -6,6 +6,7 @@
 #include "pos/estimation/dead_reckoning.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/range_odometry.hpp"
+#include "pos/estimation/sins_dr.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -21,6 +22,9 @@ struct Make {
     return std::make_unique<RangeOdometry>(c, map);
   }
   std::unique_ptr<Estimator> operator()(const MclConfig& c) const { return std::make_unique<Mcl>(c, map); }
+  std::unique_ptr<Estimator> operator()(const SinsDrConfig& c) const {
+    return std::make_unique<SinsDr>(c, map);
+  }
   std::unique_ptr<Estimator> operator()(const MrptMclConfig&) const {
     throw ContractError("mrpt_mcl is made by pos::yardstick, not by pos::estimation");
   }
@@ -29,8 +33,8 @@ struct Make {
 }  // namespace
 
 std::string_view typeName(const EstimatorConfig& config) {
-  static constexpr std::array<std::string_view, 4> kNames{"dead_reckoning", "range_odometry", "mcl",
-                                                          "mrpt_mcl"};
+  static constexpr std::array<std::string_view, 5> kNames{"dead_reckoning", "range_odometry", "mcl",
+                                                          "mrpt_mcl", "sins_dr"};
   static_assert(kNames.size() == std::variant_size_v<EstimatorConfig>);
   return kNames[config.index()];
 }

@@ -1,5 +1,7 @@
 #include "pos/io/estimator_options.hpp"
 
+#include "pos/io/sins_options.hpp"
+
 #include <array>
 
 namespace pos::io {
@@ -263,7 +265,9 @@ OptionTable<EstimatorEntry> estimatorOptions() {
       .alternative("range_odometry", config, rangeOdometryOptions(),
                    "Planar Kalman filter on odometry and radio ranges.")
       .alternative("mcl", config, mclOptions(), "Particle filter on the anchors and the grid of the map.")
-      .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.");
+      .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.")
+      .alternative("sins_dr", config, sinsDrOptions(),
+                   "Inertial navigation and wheels, with slip isolation.");
 }
 
 }  // namespace pos::io

@@ -11,25 +11,10 @@
 #include "pos/core/belief.hpp"
 #include "pos/core/measurement.hpp"
 #include "pos/core/pose2.hpp"
+#include "pos/estimation/sins_configs.hpp"
+#include "pos/estimation/start_config.hpp"
 
 namespace pos::estimation {
-
-/// What is known of the pose at the first measurement.
-enum class StartMode {
-  Known,           ///< position and heading, with the sigmas given
-  UnknownHeading,  ///< position as given, heading anything
-  Unknown,         ///< nothing: from the first ranges, or uniformly over the map
-  AtTruth,         ///< the mark where the reference begins; the app spells it out as one of the others
-};
-
-struct StartConfig {
-  StartMode mode = StartMode::Known;
-  Pose2 pose;                   ///< map frame; yaw is ignored for UnknownHeading, all for Unknown
-  double position_sigma = 0.1;  ///< m, per axis
-  double yaw_sigma = 0.05;      ///< rad
-
-  bool operator==(const StartConfig&) const = default;
-};
 
 /// Where a tag sits on the body (m, FLU; origin = the body frame of the log).
 struct TagMount {
@@ -192,7 +177,8 @@ ParticleCount validated(ParticleCount config);
 MclConfig validated(MclConfig config);
 MrptMclConfig validated(MrptMclConfig config);
 
-using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig>;
+using EstimatorConfig =
+    std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig, SinsDrConfig>;
 EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation

@@ -1,0 +1,506 @@
+#include "pos/estimation/sins_dr.hpp"
+
+#include <cmath>
+
+#include "pos/core/angle.hpp"
+#include "pos/core/chi_square.hpp"
+
+namespace pos::estimation {
+namespace {
+
+using ins::kAccelerometerBias;
+using ins::kGyroBias;
+using ins::kInertial;
+using ins::kPhi;
+using ins::kPosition;
+using ins::kVelocity;
+
+constexpr double kLeastRest = 1.0;            // s of standing that are worth an average
+constexpr double kFreeFall = 1.0;             // m/s^2: less specific force than this is no reading
+constexpr double kWheelsQuiet = 0.005;        // m/s, below this wheels count as standing
+constexpr double kImplausibleSpeed = 40.0;    // m/s of a wheel on a mine vehicle: a counter that jumped
+constexpr double kSteadyDifference = 0.15;    // m/s over a second between wheels and accelerometers
+constexpr double kForcedVelocitySigma = 0.1;  // m/s
+
+double square(double value) {
+  return value * value;
+}
+
+IngestReport refusal(Verdict verdict, std::string_view reason) {
+  return {.verdict = verdict, .reason = reason};
+}
+
+Matrix<3, 3> diagonal3(double sigma) {
+  return square(sigma) * Matrix<3, 3>::Identity();
+}
+
+filters::NoiseAdaptation<3> startNoise(const SinsDrConfig& config) {
+  return {{.form = config.noise_form,
+           .forgetting = config.forgetting,
+           .warm_up = 10,
+           .variance_min = square(config.difference_sigma_min),
+           .variance_max = square(config.difference_sigma_max)},
+          diagonal3(config.difference_sigma)};
+}
+
+/// nu' S^-1 nu without touching the belief.
+template <int M>
+double nisOf(const Belief<SinsDrState>& belief, const filters::Innovation<SinsDrState, M>& innovation,
+             const Matrix<M, M>& R) {
+  const Matrix<M, M> S = innovation.H * belief.covariance * innovation.H.transpose() + R;
+  return innovation.nu.dot(S.llt().solve(innovation.nu));
+}
+
+ins::ImuIncrement corrected(const ins::ImuIncrement& raw, const SinsDrState& x) {
+  return {raw.angle - raw.dt * x.gyro_bias, raw.velocity - raw.dt * x.accelerometer_bias, raw.dt};
+}
+
+}  // namespace
+
+SinsDr::SinsDr(const SinsDrConfig& config, const std::shared_ptr<const map::TunnelMap>& map)
+    : config_(config),
+      earth_(config.earth == SinsDrConfig::EarthModel::Flat ? ins::Earth::flat(config.standstill.gravity)
+                                                            : ins::Earth::ellipsoid(),
+             *map, "earth"),
+      difference_gate_{chiSquareQuantile(config.slip.confidence, 3.0)},
+      standstill_(config.standstill),
+      counter_(config.odometer),
+      slip_(config.slip),
+      noise_(startNoise(config)) {}
+
+void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
+  given_ = prior;
+  running_ = false;
+  last_stamp_ = stamp;
+  imu_stamp_.reset();
+  wheel_stamp_.reset();
+  wheels_turned_.reset();
+  update_stamp_.reset();
+  standstill_.forget();
+  rest_.forget();
+  pending_.forget();
+  moved_early_ = false;
+  counter_.forget();
+  slip_.forget();
+  last_second_.clear();
+  noise_ = startNoise(config_);
+}
+
+Belief<Pose2> SinsDr::prior() const {
+  if (given_) return *given_;
+  const double p = square(config_.start.position_sigma);
+  return {config_.start.pose, Vector<3>(p, p, square(config_.start.yaw_sigma)).asDiagonal()};
+}
+
+IngestReport SinsDr::ingest(const Measurement& measurement) {
+  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
+  if (last_stamp_ && measurement.stamp < *last_stamp_)
+    return refusal(Verdict::TooOld, "older than the state");
+  const IngestReport report =
+      std::visit([&](const auto& reading) { return take(measurement.stamp, reading); }, measurement.reading);
+  if (report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate)
+    last_stamp_ = measurement.stamp;
+  return report;
+}
+
+IngestReport SinsDr::take(Stamp stamp, const ImuSample& sample) {
+  double dt = imu_stamp_ ? seconds(stamp - *imu_stamp_) : 0.0;
+  if (sample.interval && !imu_stamp_) dt = seconds(*sample.interval);
+  const bool rates = sample.kind == ImuSample::Kind::Rates;
+  if (!rates && sample.interval) dt = seconds(*sample.interval);
+  const Eigen::Vector3d force = rates || dt == 0.0 ? sample.linear : Eigen::Vector3d(sample.linear / dt);
+  if (force.norm() < kFreeFall)
+    return refusal(Verdict::Degenerate, "the accelerometers feel no gravity: no inertial unit reads this");
+  ins::ImuIncrement raw{sample.angular, sample.linear, dt};
+  if (rates) {
+    raw.angle *= dt;
+    raw.velocity *= dt;
+  }
+  imu_stamp_ = stamp;
+  if (dt == 0.0) return {.verdict = Verdict::Applied};
+  return running_ ? strapdown(stamp, raw) : align(stamp, raw);
+}
+
+// ---------------------------------------------------------------- standing still before the start
+
+IngestReport SinsDr::align(Stamp stamp, const ins::ImuIncrement& raw) {
+  standstill_.add(raw);
+  pending_.add(raw);
+  if (standstill_.statistic() && pending_.time() >= config_.standstill.window - 1e-9) {
+    if (quiet() && !wheels_turned_) {
+      rest_.add(pending_.sum());
+      pending_.forget();
+    } else {
+      moved_early_ = true;
+    }
+  }
+  if (rest_.time() >= config_.alignment.time || moved_early_) {
+    const bool early = moved_early_;
+    start(stamp);
+    return {.verdict = Verdict::Applied,
+            .event = early ? "moved off before the alignment was over: level and gyro bias are less sure"
+                           : "aligned at rest"};
+  }
+  return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
+}
+
+void SinsDr::start(Stamp stamp) {
+  const Belief<Pose2> at = prior();
+  const bool rested = rest_.time() >= kLeastRest;
+  const ins::RestAverage& average = rested ? rest_ : pending_;
+  const Eigen::Vector3d origin_map(at.mean.x, at.mean.y, config_.height);
+  const Eigen::Vector3d near = earth_.coordinates(origin_map);
+  const Eigen::Matrix3d R_map_n = earth_.R_map_n(near);
+  const double yaw_n = wrapAngle(at.mean.yaw - std::atan2(R_map_n(1, 0), R_map_n(0, 0)));
+
+  SinsDrState x;
+  x.earth = earth_.earth();
+  x.nav.q_n_b = ins::levelled(average.force(), yaw_n);
+  x.nav.coordinates = earth_.coordinates(origin_map + R_map_n * (x.nav.q_n_b * config_.mounts.imu));
+  x.wheel_coordinates = x.nav.coordinates;
+  const ins::EarthPoint here = x.earth.at(x.nav.coordinates);
+  if (rested) x.gyro_bias = ins::gyroBiasAtRest(average, here, x.nav.q_n_b);
+
+  ins::AlignmentSigmas sigmas;
+  sigmas.yaw = std::sqrt(at.covariance(2, 2));
+  sigmas.velocity = rested ? config_.zero_velocity_sigma : 1.0;
+  sigmas.gyro_bias =
+      rested ? config_.imu.gyro_density / std::sqrt(average.time()) : config_.imu.gyro_bias_sigma;
+  sigmas.accelerometer_bias = config_.imu.accelerometer_bias_sigma;
+  sigmas.level = rested ? config_.alignment.level_sigma : config_.alignment.moving_level_sigma;
+  Matrix<21, 21> P = Matrix<21, 21>::Zero();
+  P.topLeftCorner<kInertial, kInertial>() = ins::alignmentCovariance(sigmas, x.nav.C_n_b(), here.gravity);
+  P.block<2, 2>(kPosition, kPosition) = R_map_n.topLeftCorner<2, 2>().transpose() *
+                                        at.covariance.topLeftCorner<2, 2>() * R_map_n.topLeftCorner<2, 2>();
+  P(kScale, kScale) = square(config_.odometer_scale_sigma);
+  P(kBoresightPitch, kBoresightPitch) = P(kBoresightYaw, kBoresightYaw) = square(config_.boresight_sigma);
+  belief_ = {x, P};
+  reanchor(belief_);
+  running_ = true;
+  q_at_wheels_ = x.nav.q_n_b;
+  update_stamp_ = stamp;
+  coordinates_at_update_ = x.nav.coordinates;
+  since_update_ = {};
+  force_sum_.setZero();
+  unpropagated_ = 0.0;
+  rate_.forget();
+}
+
+// ---------------------------------------------------------------- inertial part
+
+IngestReport SinsDr::strapdown(Stamp stamp, const ins::ImuIncrement& raw) {
+  const ins::ImuIncrement now = corrected(raw, belief_.mean);
+  belief_.mean.nav =
+      ins::stepped(belief_.mean.earth, belief_.mean.nav, ins::compensated(now, last_increment_));
+  last_increment_ = now;
+  standstill_.add(now);
+  rate_.add(raw);
+  force_sum_ += now.velocity;
+  unpropagated_ += now.dt;
+  if (unpropagated_ >= config_.propagation_interval - 1e-9) propagate();
+  if (standing(stamp) && rate_.time() >= config_.update_interval - 1e-9) {
+    standStill();
+    rate_.forget();
+  }
+  return {.verdict = Verdict::Applied};
+}
+
+SinsDrInput SinsDr::input() const {
+  SinsDrInput in;
+  if (unpropagated_ > 0.0) in.force_b = force_sum_ / unpropagated_;
+  if (since_update_.time > 0.0 && !slip_.isolated()) {
+    in.wheel_v_n = since_update_.moved_n / since_update_.time;
+    in.wheel_speed = since_update_.way / since_update_.time;
+  }
+  in.wheel_interval = wheel_interval_;
+  return in;
+}
+
+void SinsDr::propagate() {
+  if (unpropagated_ <= 0.0) return;
+  filters::predict(belief_, sinsDrStep(config_, belief_.mean, input(), unpropagated_));
+  force_sum_.setZero();
+  unpropagated_ = 0.0;
+}
+
+/// The inertial unit is quiet and, where there are wheels, they have not turned for as long as it looked.
+bool SinsDr::standing(Stamp stamp) const {
+  if (!quiet()) return false;
+  return !wheels_turned_ || seconds(stamp - *wheels_turned_) >= config_.standstill.window;
+}
+
+/// Zero velocity and zero rate; both gated wide, for a vehicle on a turntable or in a slow lift is quiet too.
+void SinsDr::standStill() {
+  propagate();
+  const filters::Gate gate{chiSquareQuantile(config_.fix_confidence, 3.0)};
+  filters::correct(belief_, zeroVelocity(belief_.mean), diagonal3(config_.zero_velocity_sigma), gate);
+  if (rate_.time() <= 0.0) return;
+  const Matrix<3, 3> R = diagonal3(config_.imu.gyro_density / std::sqrt(rate_.time()));
+  filters::correct(belief_, zeroRate(belief_.mean, rate_.rate()), R, gate);
+}
+
+// ---------------------------------------------------------------- wheels
+
+IngestReport SinsDr::take(Stamp stamp, const WheelTicks& ticks) {
+  if (config_.odometer.ticks_per_turn <= 0.0)
+    return refusal(Verdict::Unsupported, "odometer.ticks_per_turn is not given: ticks say nothing");
+  ins::TickCounter counter = counter_;
+  const auto way = counter.way(ticks.left, ticks.right);
+  const double dt = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
+  if (way && std::max(std::abs(way->left), std::abs(way->right)) > kImplausibleSpeed * std::max(dt, 1e-3))
+    return refusal(Verdict::Degenerate, "the counters jumped further than any wheel turns");
+  counter_ = counter;
+  return roll(stamp, way.value_or(ins::WheelWay{}), dt);
+}
+
+IngestReport SinsDr::take(Stamp stamp, const WheelSpeeds& speeds) {
+  const double dt = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
+  return roll(stamp, {speeds.left * dt, speeds.right * dt}, dt);
+}
+
+IngestReport SinsDr::take(Stamp stamp, const OdometryIncrement& odometry) {
+  const double since = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
+  const double dt = odometry.interval ? seconds(*odometry.interval) : since;
+  const double half = 0.5 * odometry.increment.yaw * std::max(config_.odometer.track, 1e-6);
+  return roll(stamp, {odometry.increment.x - half, odometry.increment.x + half}, dt);
+}
+
+IngestReport SinsDr::rollBlind(Stamp stamp, std::string_view why) {
+  wheel_stamp_ = stamp;
+  return refusal(Verdict::NotInitialised, why);
+}
+
+IngestReport SinsDr::roll(Stamp stamp, const ins::WheelWay& way, double dt) {
+  if (dt > 0.0 && std::abs(way.middle()) + std::abs(way.right - way.left) > kWheelsQuiet * dt)
+    wheels_turned_ = stamp;
+  if (!running_) return rollBlind(stamp, "standing still to find the level and the gyro bias");
+  const Eigen::Quaterniond q_now =
+      belief_.mean.nav.q_n_b *
+      quaternionFromRotationVector(
+          last_increment_.dt > 0.0
+              ? Eigen::Vector3d(last_increment_.angle * (ageOf(stamp) / last_increment_.dt))
+              : Eigen::Vector3d::Zero());
+  const bool lost = !wheel_stamp_ || dt > config_.wheels_lost_after;
+  wheel_stamp_ = stamp;
+  if (lost || dt <= 0.0) {
+    q_at_wheels_ = q_now;
+    if (!lost) return {.verdict = Verdict::Applied};
+    propagate();
+    reanchor(belief_);
+    return {.verdict = Verdict::Applied, .event = "wheels heard: anchored at the inertial position"};
+  }
+  const double rolled_way = way.middle() / (1.0 + belief_.mean.scale);
+  const SinsDrState moved = rolled(belief_.mean, q_at_wheels_, q_now, rolled_way, config_.mounts);
+  since_update_.moved_n +=
+      ins::metresBetween(moved.earth, belief_.mean.wheel_coordinates, moved.wheel_coordinates);
+  since_update_.way += rolled_way;
+  if (config_.odometer.track > 0.0) since_update_.turn += way.turn(config_.odometer.track);
+  since_update_.time += dt;
+  wheel_interval_ = dt;
+  if (!slip_.isolated()) belief_.mean.wheel_coordinates = moved.wheel_coordinates;
+  q_at_wheels_ = q_now;
+  if (seconds(stamp - *update_stamp_) < config_.update_interval - 1e-9) return {.verdict = Verdict::Applied};
+  return compare(stamp);
+}
+
+IngestReport SinsDr::compare(Stamp stamp) {
+  propagate();
+  const auto difference = positionDifference(belief_.mean, ageOf(stamp));
+  const double nis = slip_.isolated() ? 0.0 : nisOf(belief_, difference, noise_.R());
+  const SlipAction action = slip_.observe(evidence(stamp, nis));
+  IngestReport report{.verdict = Verdict::Applied, .dof = 3, .nis = nis};
+  if (slip_.isolated() && action != SlipAction::Isolate) report.dof = 0;
+  report = act(stamp, action, difference, report);
+  update_stamp_ = stamp;
+  coordinates_at_update_ = belief_.mean.nav.coordinates;
+  since_update_ = {};
+  if (!standing(stamp)) rate_.forget();
+  return report;
+}
+
+/// Mean velocities over the time since the last update, so that a counter's whole ticks do not look like
+/// slip.
+SlipEvidence SinsDr::evidence(Stamp stamp, double difference_nis) const {
+  SlipEvidence e{.stamp = stamp, .disagrees = difference_nis > difference_gate_.threshold};
+  const double time = since_update_.time;
+  if (time <= 0.0) return e;
+  SinsDrInput in;
+  in.wheel_v_n = since_update_.moved_n / time;
+  in.wheel_speed = since_update_.way / time;
+  auto velocity = velocityDifference(belief_.mean, in);
+  const Eigen::Vector3d inertial =
+      ins::metresBetween(belief_.mean.earth, coordinates_at_update_, belief_.mean.nav.coordinates) /
+      std::max(seconds(*imu_stamp_ - *update_stamp_), 1e-3);
+  velocity.nu = in.wheel_v_n - inertial;
+  const double nis = nisOf(belief_, velocity, diagonal3(config_.slip.velocity_sigma));
+  const double turn_rate = rate_.time() > 0.0 ? (rate_.rate() - belief_.mean.gyro_bias).z() : 0.0;
+  const bool turns_agree = config_.odometer.track <= 0.0 ||
+                           std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate;
+  e.velocities_agree = nis < chiSquareQuantile(config_.slip.release_confidence, 3.0) && turns_agree;
+  if (!last_second_.empty()) {
+    const Speeds& before = last_second_.front();
+    const Eigen::Vector3d change = (in.wheel_v_n - before.wheels) - (belief_.mean.nav.v_n - before.inertial);
+    e.wheels_steady = seconds(stamp - before.stamp) > 0.9 && change.norm() < kSteadyDifference && turns_agree;
+  }
+  const double variance = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
+  e.position_sigma = std::sqrt(std::max(0.0, variance - variance_when_isolated_));
+  return e;
+}
+
+IngestReport SinsDr::act(Stamp stamp, SlipAction action,
+                         const filters::Innovation<SinsDrState, 3>& difference, IngestReport report) {
+  last_nis_ = report.nis;
+  const bool was_degraded = slip_.degraded();
+  switch (action) {
+    case SlipAction::Use: {
+      const auto told = filters::correct(belief_, difference, noise_.R());
+      if (config_.variant == SinsDrConfig::Variant::Iaekf && told.nis < difference_gate_.threshold)
+        noise_.learn(told.nu, told.S, noise_.R());
+      break;
+    }
+    case SlipAction::Skip:
+      report.verdict = Verdict::Gated;
+      report.reason = "wheels and inertial unit disagree";
+      break;
+    case SlipAction::Isolate:
+      variance_when_isolated_ = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
+      reanchor(belief_);
+      report.verdict = Verdict::Gated;
+      report.reason = "wheels and inertial unit disagree";
+      report.event = "wheels slip: left out";
+      break;
+    case SlipAction::Stay:
+      whileIsolated();
+      report.verdict = Verdict::Gated;
+      report.reason = "wheels are left out until they agree again";
+      if (slip_.degraded() && !was_degraded) report.event = "wheels left out for too long: position degraded";
+      break;
+    case SlipAction::Release:
+      reanchor(belief_);
+      report.event = "wheels agree again: anchored at the inertial position";
+      break;
+    case SlipAction::ForceBack:
+      takeWheelVelocity();
+      reanchor(belief_);
+      report.event = "wheels left out for too long: their velocity is taken";
+      break;
+  }
+  if (since_update_.time > 0.0) {
+    last_second_.push_back({stamp, since_update_.moved_n / since_update_.time, belief_.mean.nav.v_n});
+    while (seconds(stamp - last_second_.front().stamp) > 1.05) last_second_.pop_front();
+  }
+  return report;
+}
+
+/// Without wheels: a quiet inertial unit stands; else it at least does not move sideways.
+void SinsDr::whileIsolated() {
+  if (config_.slip.standstill_updates && quiet()) {
+    standStill();
+    return;
+  }
+  const Eigen::Vector3d rate = last_increment_.dt > 0.0
+                                   ? Eigen::Vector3d(last_increment_.angle / last_increment_.dt)
+                                   : Eigen::Vector3d::Zero();
+  const Matrix<2, 2> R = square(config_.slip.lateral_sigma) * Matrix<2, 2>::Identity();
+  filters::correct(belief_, noSidewaysSpeed(belief_.mean, rate, config_.mounts), R,
+                   {chiSquareQuantile(config_.fix_confidence, 2.0)});
+}
+
+void SinsDr::takeWheelVelocity() {
+  if (since_update_.time <= 0.0) return;
+  belief_.mean.nav.v_n = since_update_.moved_n / since_update_.time;
+  Matrix<21, 21>& P = belief_.covariance;
+  P.middleRows<3>(kVelocity).setZero();
+  P.middleCols<3>(kVelocity).setZero();
+  P.block<3, 3>(kVelocity, kVelocity) = diagonal3(kForcedVelocitySigma);
+}
+
+// ---------------------------------------------------------------- fixes and answers
+
+IngestReport SinsDr::take(Stamp stamp, const PassageFix& fix) {
+  if (!running_)
+    return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
+  propagate();
+  const Eigen::Matrix3d R_map_n = earth_.R_map_n(belief_.mean.nav.coordinates);
+  const std::optional<Estimate> here = estimateAt(stamp);
+  if (!here) return refusal(Verdict::TooOld, "older than the state");
+  const Eigen::Vector3d offset = R_map_n.transpose() * (fix.p_map - here->T_map_body.translation);
+  const Matrix<3, 3> R = R_map_n.transpose() * fix.covariance * R_map_n;
+  Belief<SinsDrState> tried = belief_;
+  const auto told = filters::correct(tried, positionFix(tried.mean, offset, config_.mounts), R,
+                                     {chiSquareQuantile(config_.fix_confidence, 3.0)});
+  IngestReport report{.verdict = told.verdict, .dof = 3, .nis = told.nis};
+  if (told.verdict == Verdict::Gated) report.reason = "the fix is too far from where the filter is";
+  if (told.verdict == Verdict::Degenerate) report.reason = "the fix has no usable covariance";
+  if (told.verdict != Verdict::Applied) return report;
+  if (fix.yaw) {
+    const double difference = wrapAngle(*fix.yaw - here->T_map_body.yaw());
+    const auto heading = filters::correct(tried, headingFix(tried.mean, difference),
+                                          Matrix<1, 1>(square(fix.yaw_sigma.value_or(0.1))),
+                                          {chiSquareQuantile(config_.fix_confidence, 1.0)});
+    if (heading.verdict != Verdict::Applied)
+      return {.verdict = Verdict::Gated,
+              .dof = 1,
+              .nis = heading.nis,
+              .reason = "the fix's heading is too far off"};
+  }
+  belief_ = tried;
+  return report;
+}
+
+std::optional<Estimate> SinsDr::estimateAt(Stamp stamp) const {
+  if (!last_stamp_ || stamp < *last_stamp_) return std::nullopt;
+  if (!running_) {
+    // Standing at the start, as far as anybody knows.
+    if (!given_ && !imu_stamp_) return std::nullopt;
+    const Belief<Pose2> at = prior();
+    return planarEstimate(stamp, at.mean, at.covariance, config_.height);
+  }
+  const double dt = std::max(0.0, ageOf(stamp));
+  const SinsDrState& x = belief_.mean;
+  const Eigen::Matrix3d R_map_n = earth_.R_map_n(x.nav.coordinates);
+  const Eigen::Vector3d arm_n = x.nav.q_n_b * config_.mounts.imu;
+  Estimate estimate;
+  estimate.stamp = stamp;
+  estimate.T_map_body.rotation = Eigen::Quaterniond(R_map_n) * x.nav.q_n_b;
+  estimate.T_map_body.rotation.normalize();
+  estimate.T_map_body.translation = earth_.position(x.nav.coordinates) + R_map_n * (dt * x.nav.v_n - arm_n);
+  Matrix<6, 21> J = Matrix<6, 21>::Zero();
+  J.block<3, 3>(0, kPosition) = R_map_n;
+  J.block<3, 3>(0, kVelocity) = dt * R_map_n;
+  J.block<3, 3>(0, kPhi) = R_map_n * ins::skew(arm_n);
+  J.block<3, 3>(3, kPhi) = x.nav.C_n_b().transpose();
+  estimate.covariance = J * belief_.covariance * J.transpose();
+  estimate.covariance.diagonal().head<3>().array() +=
+      square(0.5 * dt) * dt / 3.0;  // 0.5 m/s^2 sqrt(s) unknown
+  filters::symmetrise(estimate.covariance);
+  return estimate;
+}
+
+Diagnostics SinsDr::diagnostics() const {
+  const auto& P = belief_.covariance;
+  const auto& x = belief_.mean;
+  const auto sigma = [&](int row) { return running_ ? std::sqrt(std::max(0.0, P(row, row))) : 0.0; };
+  Diagnostics values{{"isolated", slip_.isolated() ? 1.0 : 0.0},
+                     {"degraded", slip_.degraded() ? 1.0 : 0.0},
+                     {"isolations", static_cast<double>(slip_.isolations())},
+                     {"standing", running_ && quiet() ? 1.0 : 0.0},
+                     {"wheel_scale", x.scale, sigma(kScale)},
+                     {"difference_sigma_m", std::sqrt(noise_.R()(0, 0))},
+                     {"difference_nis", last_nis_}};
+  const char* axes = "xyz";
+  for (int i = 0; i < 3; ++i) {
+    values.push_back(
+        {std::string("gyro_bias_") + axes[i] + "_rad_per_s", x.gyro_bias[i], sigma(kGyroBias + i)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    values.push_back({std::string("accelerometer_bias_") + axes[i] + "_m_per_s2", x.accelerometer_bias[i],
+                      sigma(kAccelerometerBias + i)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    values.push_back({std::string("velocity_") + axes[i] + "_m_per_s", x.nav.v_n[i], sigma(kVelocity + i)});
+  }
+  return values;
+}
+
+}  // namespace pos::estimation

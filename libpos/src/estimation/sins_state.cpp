@@ -1,0 +1,199 @@
+#include "pos/estimation/sins_state.hpp"
+
+#include <cmath>
+
+namespace pos::estimation {
+namespace {
+
+using ins::kAccelerometerBias;
+using ins::kGyroBias;
+using ins::kInertial;
+using ins::kPhi;
+using ins::kPosition;
+using ins::kVelocity;
+using ins::skew;
+
+template <int M>
+filters::Innovation<SinsDrState, M> empty() {
+  filters::Innovation<SinsDrState, M> innovation;
+  innovation.nu.setZero();
+  innovation.H.setZero();
+  return innovation;
+}
+
+double square(double value) {
+  return value * value;
+}
+
+}  // namespace
+
+Eigen::Vector3d SinsDrState::rollingDirection() const {
+  return {std::cos(boresight_yaw) * std::cos(boresight_pitch),
+          std::sin(boresight_yaw) * std::cos(boresight_pitch), std::sin(boresight_pitch)};
+}
+
+SinsDrState plus(const SinsDrState& x, const Tangent<SinsDrState>& d) {
+  SinsDrState next = x;
+  const Eigen::Vector3d metric = x.earth.at(x.nav.coordinates).metric;
+  next.nav.q_n_b = (quaternionFromRotationVector(d.segment<3>(kPhi)) * x.nav.q_n_b).normalized();
+  next.nav.v_n += d.segment<3>(kVelocity);
+  next.nav.coordinates += d.segment<3>(kPosition).cwiseQuotient(metric);
+  next.gyro_bias += d.segment<3>(kGyroBias);
+  next.accelerometer_bias += d.segment<3>(kAccelerometerBias);
+  next.wheel_coordinates += d.segment<3>(kWheelPosition).cwiseQuotient(metric);
+  next.scale += d[kScale];
+  next.boresight_pitch += d[kBoresightPitch];
+  next.boresight_yaw += d[kBoresightYaw];
+  return next;
+}
+
+Tangent<SinsDrState> minus(const SinsDrState& to, const SinsDrState& from) {
+  const Eigen::Vector3d metric = from.earth.at(from.nav.coordinates).metric;
+  Tangent<SinsDrState> d;
+  d.segment<3>(kPhi) = rotationVector(to.nav.q_n_b * from.nav.q_n_b.conjugate());
+  d.segment<3>(kVelocity) = to.nav.v_n - from.nav.v_n;
+  d.segment<3>(kPosition) = (to.nav.coordinates - from.nav.coordinates).cwiseProduct(metric);
+  d.segment<3>(kGyroBias) = to.gyro_bias - from.gyro_bias;
+  d.segment<3>(kAccelerometerBias) = to.accelerometer_bias - from.accelerometer_bias;
+  d.segment<3>(kWheelPosition) = (to.wheel_coordinates - from.wheel_coordinates).cwiseProduct(metric);
+  d[kScale] = to.scale - from.scale;
+  d[kBoresightPitch] = to.boresight_pitch - from.boresight_pitch;
+  d[kBoresightYaw] = to.boresight_yaw - from.boresight_yaw;
+  return d;
+}
+
+Matrix<21, 21> sinsDrErrorF(const SinsDrState& x, const SinsDrInput& input) {
+  Matrix<21, 21> F = Matrix<21, 21>::Zero();
+  const ins::ErrorModel model = ins::errorModel(x.earth, x.nav, input.force_b);
+  F.topLeftCorner<kInertial, kInertial>() = ins::denseF(model);
+  const Eigen::Vector3d rolling = input.wheel_speed * (model.C * x.rollingDirection());
+  F.block<3, 3>(kWheelPosition, kPhi) = skew(input.wheel_v_n);
+  F.block<3, 3>(kWheelPosition, kWheelPosition) =
+      ins::metricRate(x.earth.at(x.wheel_coordinates), input.wheel_v_n);
+  F.block<3, 1>(kWheelPosition, kScale) = rolling;
+  F.block<3, 1>(kWheelPosition, kBoresightPitch) = input.wheel_speed * model.C.col(2);
+  F.block<3, 1>(kWheelPosition, kBoresightYaw) = input.wheel_speed * model.C.col(1);
+  return F;
+}
+
+Vector<21> errorSigns() {
+  Vector<21> signs = Vector<21>::Ones();
+  signs.segment<3>(kVelocity).setConstant(-1.0);
+  signs.segment<3>(kPosition).setConstant(-1.0);
+  signs.segment<3>(kWheelPosition).setConstant(-1.0);
+  signs[kBoresightPitch] = signs[kBoresightYaw] = -1.0;
+  return signs;
+}
+
+Matrix<21, 21> sinsDrNoise(const SinsDrConfig& config, const SinsDrState& x, const SinsDrInput& input) {
+  Matrix<21, 21> q = Matrix<21, 21>::Zero();
+  q.diagonal().segment<3>(kPhi).setConstant(square(config.imu.gyro_density));
+  q.diagonal().segment<3>(kVelocity).setConstant(square(config.imu.accelerometer_density));
+  q.diagonal().segment<3>(kGyroBias).setConstant(square(config.imu.gyro_bias_walk));
+  q.diagonal().segment<3>(kAccelerometerBias).setConstant(square(config.imu.accelerometer_bias_walk));
+  q(kScale, kScale) = square(config.odometer_scale_walk);
+  // Each wheel's way has k_d^2 |way|; their mean half of it, along the way. The rest is white in velocity.
+  const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
+  const double way_density = 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(input.wheel_speed);
+  q.block<3, 3>(kWheelPosition, kWheelPosition) = way_density * along * along.transpose();
+  q.diagonal().segment<3>(kWheelPosition).array() +=
+      square(config.odometer_velocity_sigma) * input.wheel_interval;
+  return q;
+}
+
+filters::Step<SinsDrState> sinsDrStep(const SinsDrConfig& config, const SinsDrState& x,
+                                      const SinsDrInput& input, double dt) {
+  const Matrix<21, 21> FT = dt * sinsDrErrorF(x, input);
+  const Matrix<21, 21> Phi = Matrix<21, 21>::Identity() + FT + 0.5 * FT * FT;
+  const Matrix<21, 21> q = sinsDrNoise(config, x, input);
+  const Vector<21> s = errorSigns();
+  filters::Step<SinsDrState> step{x, s.asDiagonal() * Phi * s.asDiagonal(), {}};
+  const Matrix<21, 21> Qd = 0.5 * dt * (Phi * q * Phi.transpose() + q);
+  step.Qd = s.asDiagonal() * Qd * s.asDiagonal();
+  return step;
+}
+
+SinsDrState rolled(SinsDrState x, const Eigen::Quaterniond& q_before, const Eigen::Quaterniond& q_now,
+                   double way, const InertialMounts& mounts) {
+  const Eigen::Vector3d arm = mounts.imu - mounts.axle;
+  const Eigen::Quaterniond half = q_before.slerp(0.5, q_now);
+  // The chord of the arc is shorter than the way by sinc of half the turn.
+  const double chord = way * ins::sinc(0.5 * q_before.angularDistance(q_now));
+  const Eigen::Vector3d moved = half * (chord * x.rollingDirection()) + (q_now * arm - q_before * arm);
+  x.wheel_coordinates += moved.cwiseQuotient(x.earth.at(x.wheel_coordinates).metric);
+  return x;
+}
+
+filters::Innovation<SinsDrState, 3> positionDifference(const SinsDrState& x, double age) {
+  auto innovation = empty<3>();
+  innovation.nu = -(ins::metresBetween(x.earth, x.wheel_coordinates, x.nav.coordinates) + age * x.nav.v_n);
+  innovation.H.block<3, 3>(0, kPosition).setIdentity();
+  innovation.H.block<3, 3>(0, kVelocity) = age * Eigen::Matrix3d::Identity();
+  innovation.H.block<3, 3>(0, kWheelPosition) = -Eigen::Matrix3d::Identity();
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 3> velocityDifference(const SinsDrState& x, const SinsDrInput& input) {
+  auto innovation = empty<3>();
+  innovation.nu = -(x.nav.v_n - input.wheel_v_n);
+  innovation.H.block<3, 3>(0, kVelocity).setIdentity();
+  innovation.H.block<3, 3>(0, kPhi) = skew(input.wheel_v_n);
+  innovation.H.block<3, 1>(0, kScale) = input.wheel_speed * (x.nav.q_n_b * x.rollingDirection());
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 3> zeroVelocity(const SinsDrState& x) {
+  auto innovation = empty<3>();
+  innovation.nu = -x.nav.v_n;
+  innovation.H.block<3, 3>(0, kVelocity).setIdentity();
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 3> zeroRate(const SinsDrState& x, const Eigen::Vector3d& mean_rate) {
+  auto innovation = empty<3>();
+  const Eigen::Matrix3d C_b_n = x.nav.C_n_b().transpose();
+  const Eigen::Vector3d omega_ie = x.earth.at(x.nav.coordinates).omega_ie;
+  innovation.nu = mean_rate - (C_b_n * omega_ie + x.gyro_bias);
+  innovation.H.block<3, 3>(0, kPhi) = C_b_n * skew(omega_ie);
+  innovation.H.block<3, 3>(0, kGyroBias).setIdentity();
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 2> noSidewaysSpeed(const SinsDrState& x, const Eigen::Vector3d& rate,
+                                                    const InertialMounts& mounts) {
+  auto innovation = empty<2>();
+  const Eigen::Matrix3d C_b_n = x.nav.C_n_b().transpose();
+  const Eigen::Vector3d at_axle = C_b_n * x.nav.v_n + rate.cross(mounts.axle - mounts.imu);
+  innovation.nu = -at_axle.tail<2>();
+  innovation.H.block<2, 3>(0, kVelocity) = C_b_n.bottomRows<2>();
+  innovation.H.block<2, 3>(0, kPhi) = (C_b_n * skew(x.nav.v_n)).bottomRows<2>();
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 3> positionFix(const SinsDrState& x, const Eigen::Vector3d& offset_n,
+                                                const InertialMounts& mounts) {
+  auto innovation = empty<3>();
+  innovation.nu = offset_n;
+  innovation.H.block<3, 3>(0, kPosition).setIdentity();
+  innovation.H.block<3, 3>(0, kPhi) = skew(x.nav.q_n_b * mounts.imu);  // origin = p - C imu
+  return innovation;
+}
+
+filters::Innovation<SinsDrState, 1> headingFix(const SinsDrState& x, double difference) {
+  auto innovation = empty<1>();
+  const Eigen::Vector3d f = x.nav.q_n_b * Eigen::Vector3d::UnitX();
+  const double level = f.head<2>().squaredNorm();
+  innovation.nu[0] = difference;
+  innovation.H.block<1, 3>(0, kPhi) << -f.x() * f.z() / level, -f.y() * f.z() / level, 1.0;
+  return innovation;
+}
+
+void reanchor(Belief<SinsDrState>& belief) {
+  belief.mean.wheel_coordinates = belief.mean.nav.coordinates;
+  Matrix<21, 21>& P = belief.covariance;
+  P.middleRows<3>(kWheelPosition) = P.middleRows<3>(kPosition).eval();
+  P.middleCols<3>(kWheelPosition) = P.middleCols<3>(kPosition).eval();
+  filters::symmetrise(P);
+}
+
+}  // namespace pos::estimation
