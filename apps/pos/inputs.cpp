@@ -6,6 +6,7 @@
 #include "pos/io/files.hpp"
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
+#include "pos/io/range_bias_yaml.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/trajectory_io.hpp"
 
@@ -119,6 +120,18 @@ void spellOutStart(estimation::StartConfig& start, const std::optional<Truth>& t
   start.mode = truth->has_yaw ? estimation::StartMode::Known : estimation::StartMode::UnknownHeading;
 }
 
+/// The table of range biases that the estimator names, spelt out, so that run.json holds all that a run
+/// needs.
+void spellOutBiases(io::EstimatorEntry& entry) {
+  auto* dual = std::get_if<estimation::DualUwbConfig>(&entry.config);
+  if (dual == nullptr || dual->range_bias_table.empty()) return;
+  const fs::path file = io::existingFile(
+      dual->range_bias_table,
+      Complaint{.key = "estimators." + entry.name + ".range_bias_table",
+                .suggestion = "write it with pos calibrate ranges, see docs/howto/calibrate_ranges.md"});
+  *dual = io::withTable(*dual, io::loadRangeBiasTable(file));
+}
+
 }  // namespace
 
 void addInputs(CLI::App& verb, InputOptions& options) {
@@ -164,6 +177,7 @@ Inputs loadInputs(io::RunConfig config) {
   inputs.truth = loadTruth(inputs.config);
   for (io::EstimatorEntry& entry : inputs.config.estimators) {
     std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
+    spellOutBiases(entry);
   }
   // a start that was spelt out may not suit its estimator
   inputs.config = io::validated(std::move(inputs.config));

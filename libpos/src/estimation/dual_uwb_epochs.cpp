@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pos/core/error.hpp"
+#include "pos/estimation/dual_uwb_bank.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -235,15 +236,15 @@ std::optional<Estimate> DualUwbEpochs::estimateAt(Stamp stamp) const {
   const Belief<Pose2>& pose = current_->poses[0];
   Matrix<3, 3> covariance = pose.covariance;
   if (current_->count > 1) {  // one of several: its pose with the spread of all of them about it
+    const auto weight = [&](std::size_t k) {
+      return std::exp(-0.5 * (current_->costs[k] - current_->costs[0]));
+    };
+    const auto count = static_cast<std::size_t>(current_->count);
     double total = 0.0;
+    for (std::size_t k = 0; k < count; ++k) total += weight(k);
     covariance.setZero();
-    for (std::size_t k = 0; k < static_cast<std::size_t>(current_->count); ++k) {
-      const double weight = std::exp(-0.5 * (current_->costs[k] - current_->costs[0]));
-      const Vector<3> apart = minus(current_->poses[k].mean, pose.mean);
-      covariance += weight * (current_->poses[k].covariance + apart * apart.transpose());
-      total += weight;
-    }
-    covariance /= total;
+    for (std::size_t k = 0; k < count; ++k)
+      covariance += spreadAbout(pose.mean, current_->poses[k], weight(k) / total);
   }
   covariance += unknownMotion(config_, seconds(stamp - current_->stamp));
   Estimate estimate = planarEstimate(stamp, pose.mean, covariance, config_.body_height);

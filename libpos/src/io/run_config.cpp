@@ -227,6 +227,13 @@ RunConfig runConfigFrom(const YamlDocument& document, const std::filesystem::pat
   if (config.log) resolve(config.log->file);
   if (config.map) resolve(*config.map);
   if (config.truth && config.truth->file) resolve(*config.truth->file);
+  for (EstimatorEntry& entry : config.estimators) {
+    auto* dual = std::get_if<estimation::DualUwbConfig>(&entry.config);
+    if (dual == nullptr || dual->range_bias_table.empty()) continue;
+    std::filesystem::path table = dual->range_bias_table;
+    resolve(table);
+    dual->range_bias_table = table.string();
+  }
   return config;
 }
 

@@ -61,7 +61,7 @@ class DualUwbEpochs : public Estimator {
   std::optional<EpochFix> previous_;    // of an earlier epoch
   std::optional<EpochFix> current_;     // of this epoch, or else the last one
   std::optional<PlanarTwist> twist_;
-  bool solved_ = false;                 // current_ is of this epoch
+  bool solved_ = false;  // current_ is of this epoch
   std::optional<uwb::DifferentialMapper> mapper_previous_;
   std::optional<uwb::DifferentialMapper> mapper_current_;
   std::optional<Stamp> last_stamp_;

@@ -6,19 +6,12 @@
 #include <vector>
 
 #include "pos/estimation/anchor_watch.hpp"
-#include "pos/estimation/dual_uwb_models.hpp"
+#include "pos/estimation/dual_uwb_bank.hpp"
 #include "pos/estimation/estimator.hpp"
 #include "pos/estimation/uwb_epoch.hpp"
 #include "pos/estimation/uwb_links.hpp"
 
 namespace pos::estimation {
-
-/// One belief about the vehicle and the log of its likelihood. Mirror images live side by side until
-/// something tells them apart.
-struct DualUwbHypothesis {
-  Belief<DualUwbState> belief;
-  double log_weight = 0.0;
-};
 
 class DualUwbFilter : public Estimator {
  public:
@@ -50,9 +43,9 @@ class DualUwbFilter : public Estimator {
   GyroInput gyroAt(Stamp stamp) const;
   IngestReport correctRange(Stamp stamp, const UwbReading& reading);
   void holdCourse(Stamp stamp);
-  void settle();
+  void settle(Stamp stamp);
   std::string_view alarm(Stamp stamp);
-  const DualUwbHypothesis& best() const { return hypotheses_[best_]; }
+  bool backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const;
 
   DualUwbConfig config_;
   RoadwayTest roadway_;
@@ -63,8 +56,7 @@ class DualUwbFilter : public Estimator {
   uwb::ResidualTest residual_test_;
   AnchorWatch watch_;
 
-  std::vector<DualUwbHypothesis> hypotheses_;
-  std::size_t best_ = 0;
+  DualUwbBank bank_;
   UwbEpoch early_;  // ranges gathered for the first pose
   int attempts_ = 0;
   std::optional<Stamp> state_stamp_;
