@@ -12,6 +12,10 @@
 #include "pos/io/run_config.hpp"
 #include "pos/map/tunnel_map.hpp"
 
+namespace pos::sim {
+struct Scenario;
+}
+
 namespace pos::app {
 
 /// Options that name or change the inputs, the same for every verb that runs estimators.
@@ -31,8 +35,10 @@ void addInputs(CLI::App& verb, InputOptions& options);
 /// taken from the truth spelt out.
 struct Inputs {
   io::RunConfig config;
-  std::shared_ptr<const map::TunnelMap> map;
+  std::shared_ptr<const map::TunnelMap> map;  ///< what the estimators know
   std::optional<Truth> truth;
+  std::shared_ptr<const sim::Scenario> scenario = {};       ///< where it takes the place of a log
+  std::shared_ptr<const map::TunnelMap> scenario_map = {};  ///< what is really there
 };
 
 Inputs loadInputs(const InputOptions& options);
