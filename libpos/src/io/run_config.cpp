@@ -152,6 +152,29 @@ OptionTable<LogSource> logOptions() {
       .required();
 }
 
+OptionTable<ScenarioSource> scenarioSourceOptions() {
+  return OptionTable<ScenarioSource>("scenario", "A simulation in the place of a recording.")
+      .path("file", &ScenarioSource::file, "The scenario; it brings its own map and truth.")
+      .required()
+      .number("truth_rate_hz", &ScenarioSource::truth_rate, between(0.001, 10000),
+              "Reference poses per second for the evaluation.")
+      .number("duration_s", &ScenarioSource::duration, moreThan(0),
+              "Only so much of the scenario; all of it where absent.");
+}
+
+/// A run has one input: a recording with its truth, or a scenario that knows its own.
+void requireOneInput(const RunConfig& config) {
+  if (!config.scenario) return;
+  if (config.log) {
+    refuse("the run has a recording and a scenario", "scenario", config.scenario->file.string(),
+           "either log or scenario");
+  }
+  if (config.truth) {
+    refuse("the run has a scenario and a truth of its own", "truth", "a table",
+           "no truth; the scenario knows it", "remove truth");
+  }
+}
+
 }  // namespace
 
 OptionTable<RunConfig> runOptions() {
@@ -161,7 +184,9 @@ OptionTable<RunConfig> runOptions() {
       .text("name", &RunConfig::name, "Name of the run in reports.")
       .required()
       .table("log", &RunConfig::log, logOptions(), "The recording to replay, unless --log names it.")
-      .path("map", &RunConfig::map, "The map file, unless --map names it.")
+      .table("scenario", &RunConfig::scenario, scenarioSourceOptions(),
+             "A simulation in the place of a recording; the seed of the run is its seed.")
+      .path("map", &RunConfig::map, "The map file, unless --map names it; a scenario's own map where absent.")
       .table("truth", &RunConfig::truth, truthOptions(),
              "Reference poses for the evaluation, unless --truth names them.")
       .table(
@@ -186,12 +211,14 @@ OptionTable<RunConfig> runOptions() {
       .check([](const RunConfig& config) {
         requireUniqueEstimators(config.estimators);
         requireUniqueSensors(config.sensors);
+        requireOneInput(config);
       });
 }
 
 RunConfig validated(RunConfig config) {
   requireUniqueEstimators(config.estimators);
   requireUniqueSensors(config.sensors);
+  requireOneInput(config);
   if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
   withKeyPrefix("faults", [&] { requireOrder(config.faults); });
   for (std::size_t i = 0; i < config.estimators.size(); ++i) {
@@ -225,6 +252,7 @@ RunConfig runConfigFrom(const YamlDocument& document, const std::filesystem::pat
     path = resolvedPath(path, document.file.parent_path(), mrpt_share);
   };
   if (config.log) resolve(config.log->file);
+  if (config.scenario) resolve(config.scenario->file);
   if (config.map) resolve(*config.map);
   if (config.truth && config.truth->file) resolve(*config.truth->file);
   return config;

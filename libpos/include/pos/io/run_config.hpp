@@ -17,6 +17,15 @@ struct LogSource {
   bool operator==(const LogSource&) const = default;
 };
 
+/// A simulation instead of a recording; it brings its own map and truth.
+struct ScenarioSource {
+  std::filesystem::path file;      ///< absolute after loading
+  double truth_rate = 20.0;        ///< Hz, reference poses for the evaluation
+  std::optional<double> duration;  ///< s, less than the scenario's own
+
+  bool operator==(const ScenarioSource&) const = default;
+};
+
 /// Where the reference poses come from.
 struct TruthSource {
   enum class Format {
@@ -78,6 +87,7 @@ struct RunConfig {
   int schema = 1;
   std::string name;
   std::optional<LogSource> log;              ///< absent: named on the command line
+  std::optional<ScenarioSource> scenario;    ///< instead of a log
   std::optional<std::filesystem::path> map;  ///< absolute after loading; absent: on the command line, or none
   std::optional<TruthSource> truth;
   SequencerConfig sequencer;
