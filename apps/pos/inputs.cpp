@@ -6,6 +6,7 @@
 #include "pos/io/files.hpp"
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
+#include "pos/io/overrides.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/trajectory_io.hpp"
 
@@ -119,6 +120,23 @@ void spellOutStart(estimation::StartConfig& start, const std::optional<Truth>& t
   start.mode = truth->has_yaw ? estimation::StartMode::Known : estimation::StartMode::UnknownHeading;
 }
 
+io::RunConfig configFrom(const io::YamlDocument& file, const InputOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  io::RunConfig config = io::runConfigFrom(io::applyOverrides(file, overrides), mrptShare());
+  applyCommandLine(options, config);
+  return config;
+}
+
+/// Starts at the truth spelt out, and the whole checked again: one that was spelt out may not suit its
+/// estimator.
+void spellOutStarts(Inputs& inputs) {
+  for (io::EstimatorEntry& entry : inputs.config.estimators) {
+    std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
+  }
+  inputs.config = io::validated(std::move(inputs.config));
+}
+
 }  // namespace
 
 void addInputs(CLI::App& verb, InputOptions& options) {
@@ -145,11 +163,7 @@ std::optional<Truth> loadTruth(const io::RunConfig& config) {
 }
 
 io::RunConfig loadConfig(const InputOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
-  io::RunConfig config = io::loadRunConfig(options.config, overrides, mrptShare());
-  applyCommandLine(options, config);
-  return config;
+  return configFrom(io::loadYaml(options.config), options);
 }
 
 Inputs loadInputs(const InputOptions& options) {
@@ -162,12 +176,25 @@ Inputs loadInputs(io::RunConfig config) {
   Inputs inputs{std::move(config), nullptr, std::nullopt};
   inputs.map = std::make_shared<const map::TunnelMap>(mapOf(inputs.config));
   inputs.truth = loadTruth(inputs.config);
-  for (io::EstimatorEntry& entry : inputs.config.estimators) {
-    std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
-  }
-  // a start that was spelt out may not suit its estimator
-  inputs.config = io::validated(std::move(inputs.config));
+  spellOutStarts(inputs);
   return inputs;
+}
+
+Inputs inputsOfRun(const io::YamlDocument& file, InputOptions options, std::uint64_t seed,
+                   const Inputs& shared) {
+  options.seed = seed;
+  Inputs inputs = shared;
+  inputs.config = configFrom(file, options);
+  spellOutStarts(inputs);
+  return inputs;
+}
+
+std::vector<InputFile> inputFiles(const Inputs& inputs) {
+  const io::RunConfig& config = inputs.config;
+  std::vector<InputFile> files{{"log", config.log->file}};
+  if (config.map) files.push_back({"map", *config.map});
+  if (config.truth && config.truth->file) files.push_back({"truth", *config.truth->file});
+  return files;
 }
 
 eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config) {
