@@ -21,6 +21,7 @@ struct CampaignHead {
   std::string map = {};
   std::uint64_t seed = 0;
   std::uint64_t runs = 0;     ///< asked for
+  bool recorded = false;      ///< all runs share one log, so their errors are not independent of each other
   double step = 0.0;          ///< s, of the grid; 0 without truth
   std::string baseline = {};  ///< estimator the others are compared with
 };

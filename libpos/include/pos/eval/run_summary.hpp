@@ -71,9 +71,9 @@ struct EstimatorSummary {
   VerdictCounts verdicts;
   std::vector<AnchorResiduals> residuals;
   ComputeStats compute;
-  Diagnostics diagnostics;                      ///< at the end of the run
-  std::map<std::string, std::uint64_t> events;  ///< how often each happened
-  std::vector<GridCell> cells;  ///< on the grid of the options; empty without one or without truth
+  Diagnostics diagnostics;                           ///< at the end of the run
+  std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
+  std::vector<GridCell> cells = {};  ///< on the grid of the options; empty without one or without truth
   std::vector<PathPoint> path;
 
   /// xy rmse, or nothing without truth or matches.
@@ -124,8 +124,8 @@ struct EstimatorRecord {
   ResidualCollector residuals;
   ComputeStats compute;
   Diagnostics diagnostics;
-  std::map<std::string, std::uint64_t> events;  ///< how often each happened
-  std::optional<NisGrid> nis;                   ///< where the run is looked at on a grid
+  std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
+  std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'
