@@ -164,13 +164,13 @@ std::optional<EpochFix> DualUwbEpochs::snapshotFix() const {
       for (; k > 0 && cost < result.costs[k - 1]; --k) {
         result.poses[k] = result.poses[k - 1];
         result.costs[k] = result.costs[k - 1];
+        result.left[k] = result.left[k - 1];
+        result.right[k] = result.right[k - 1];
       }
       result.poses[k] = snapshot->pose;
       result.costs[k] = cost;
-      if (k == 0) {
-        result.left = at_left;
-        result.right = at_right;
-      }
+      result.left[k] = at_left;
+      result.right[k] = at_right;
     }
   }
   if (result.count == 0) return std::nullopt;
@@ -181,9 +181,10 @@ std::optional<EpochFix> DualUwbEpochs::snapshotFix() const {
   return result;
 }
 
-/// Of several poses those that the last epoch's pose can have become; all of them where it cannot tell.
+/// Of several poses those that the last epoch's pose can have become; all of them where that one was not sure
+/// itself, then the one next to it first, so that the answer does not jump from image to image.
 EpochFix DualUwbEpochs::resolved(EpochFix fix) const {
-  if (fix.count < 2 || !previous_ || previous_->count != 1) return fix;
+  if (fix.count < 2 || !previous_) return fix;
   const double dt = seconds(fix.stamp - previous_->stamp);
   std::array<double, 4> distance{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(fix.count); ++k) {
@@ -192,13 +193,25 @@ EpochFix DualUwbEpochs::resolved(EpochFix fix) const {
     const Vector<3> apart = minus(fix.poses[k].mean, previous_->poses[0].mean);
     distance[k] = fix.costs[k] + apart.dot(S.llt().solve(apart));
   }
-  const double least = *std::min_element(distance.begin(), distance.begin() + fix.count);
+  const auto nearest = std::min_element(distance.begin(), distance.begin() + fix.count);
+  if (previous_->count > 1) {
+    const auto k = static_cast<std::size_t>(nearest - distance.begin());
+    std::swap(fix.poses[0], fix.poses[k]);
+    std::swap(fix.costs[0], fix.costs[k]);
+    std::swap(fix.left[0], fix.left[k]);
+    std::swap(fix.right[0], fix.right[k]);
+    return fix;
+  }
+  const double least = *nearest;
   EpochFix kept = fix;
   kept.count = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(fix.count); ++k) {
     if (distance[k] > least + kAmbiguous) continue;
-    kept.poses[static_cast<std::size_t>(kept.count)] = fix.poses[k];
-    kept.costs[static_cast<std::size_t>(kept.count++)] = distance[k] - least;
+    const auto place = static_cast<std::size_t>(kept.count++);
+    kept.poses[place] = fix.poses[k];
+    kept.costs[place] = distance[k] - least;
+    kept.left[place] = fix.left[k];
+    kept.right[place] = fix.right[k];
   }
   return kept;
 }
@@ -208,11 +221,11 @@ void DualUwbEpochs::differentiate(EpochFix& fix) {
   const uwb::TagPair pair{links_.tag(0).p_body.head<2>(), links_.tag(1).p_body.head<2>()};
   if (mapper_previous_) {
     mapper_current_ = mapper_previous_;
-    mapper_current_->advance(fix.left.p_map, fix.right.p_map);
+    mapper_current_->advance(fix.left[0].p_map, fix.right[0].p_map);
   } else {
     // a start that was given holds; its error stays, since nothing but increments is used from then on
     const Pose2 start = previous_ ? previous_->poses[0].mean : fix.poses[0].mean;
-    mapper_current_.emplace(start, pair, fix.left.p_map, fix.right.p_map);
+    mapper_current_.emplace(start, pair, fix.left[0].p_map, fix.right[0].p_map);
   }
   fix.poses[0].mean = mapper_current_->pose();
 }

@@ -130,8 +130,12 @@ IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
   return report;
 }
 
+/// The last rate with its age. Without one, or with one so old that the true rate may be any, the age at
+/// which the largest yaw rate is within one sigma.
 GyroInput DualUwbFilter::gyroAt(Stamp stamp) const {
-  return {gyro_rate_, gyro_stamp_ ? std::max(0.0, seconds(stamp - *gyro_stamp_)) : 0.0};
+  const double any = square(config_.max_yaw_rate / config_.yaw_acceleration_density);
+  if (!gyro_stamp_) return {0.0, layout_.gyro() ? any : 0.0};
+  return {gyro_rate_, std::clamp(seconds(stamp - *gyro_stamp_), 0.0, any)};
 }
 
 Belief<DualUwbState> DualUwbFilter::carried(Belief<DualUwbState> belief, Stamp stamp) const {

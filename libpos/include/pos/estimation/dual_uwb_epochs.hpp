@@ -19,8 +19,8 @@ struct EpochFix {
   std::array<Belief<Pose2>, 4> poses{};  ///< the likelier first; more than one = not told apart yet
   std::array<double, 4> costs{};         ///< chi^2 of each
   int count = 0;
-  uwb::TagPosition left{};  ///< of the first pose, for the differential variant
-  uwb::TagPosition right{};
+  std::array<uwb::TagPosition, 4> left{};  ///< of each pose, for the differential variant
+  std::array<uwb::TagPosition, 4> right{};
 };
 
 class DualUwbEpochs : public Estimator {
