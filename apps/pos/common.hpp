@@ -50,6 +50,7 @@ struct Verbs {
   ExitCode* code;
 };
 void addReplay(const Verbs& verbs);
+void addCampaign(const Verbs& verbs);
 void addEvaluate(const Verbs& verbs);
 void addConvert(const Verbs& verbs);
 void addCalibrate(const Verbs& verbs);

@@ -6,6 +6,8 @@
 #include "pos/io/files.hpp"
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
+#include "pos/io/overrides.hpp"
+#include "pos/io/range_bias_yaml.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/io/trajectory_io.hpp"
@@ -141,6 +143,36 @@ void spellOutStart(estimation::StartConfig& start, const std::optional<Truth>& t
   start.mode = truth->has_yaw ? estimation::StartMode::Known : estimation::StartMode::UnknownHeading;
 }
 
+/// The table of range biases that the estimator names, spelt out, so that run.json holds all that a run
+/// needs.
+void spellOutBiases(io::EstimatorEntry& entry) {
+  auto* dual = std::get_if<estimation::DualUwbConfig>(&entry.config);
+  if (dual == nullptr || dual->range_bias_table.empty()) return;
+  const fs::path file = io::existingFile(
+      dual->range_bias_table,
+      Complaint{.key = "estimators." + entry.name + ".range_bias_table",
+                .suggestion = "write it with pos calibrate ranges, see docs/howto/calibrate_ranges.md"});
+  *dual = io::withTable(*dual, io::loadRangeBiasTable(file));
+}
+
+io::RunConfig configFrom(const io::YamlDocument& file, const InputOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
+  io::RunConfig config = io::runConfigFrom(io::applyOverrides(file, overrides), mrptShare());
+  applyCommandLine(options, config);
+  return config;
+}
+
+/// Starts at the truth spelt out, and the whole checked again: one that was spelt out may not suit its
+/// estimator.
+void spellOutStarts(Inputs& inputs) {
+  for (io::EstimatorEntry& entry : inputs.config.estimators) {
+    std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
+    spellOutBiases(entry);
+  }
+  inputs.config = io::validated(std::move(inputs.config));
+}
+
 }  // namespace
 
 void addInputs(CLI::App& verb, InputOptions& options) {
@@ -167,11 +199,7 @@ std::optional<Truth> loadTruth(const io::RunConfig& config) {
 }
 
 io::RunConfig loadConfig(const InputOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (options.seed) overrides.push_back("seed=" + std::to_string(*options.seed));
-  io::RunConfig config = io::loadRunConfig(options.config, overrides, mrptShare());
-  applyCommandLine(options, config);
-  return config;
+  return configFrom(io::loadYaml(options.config), options);
 }
 
 Inputs loadInputs(const InputOptions& options) {
@@ -185,12 +213,28 @@ Inputs loadInputs(io::RunConfig config) {
   inputs.map = loadedMap(inputs.config.map);
   inputs.truth = loadTruth(inputs.config);
   if (inputs.config.scenario) loadScenario(inputs);
-  for (io::EstimatorEntry& entry : inputs.config.estimators) {
-    std::visit([&](auto& own) { spellOutStart(own.start, inputs.truth, entry.name); }, entry.config);
-  }
-  // a start that was spelt out may not suit its estimator
-  inputs.config = io::validated(std::move(inputs.config));
+  spellOutStarts(inputs);
   return inputs;
+}
+
+Inputs inputsOfRun(const io::YamlDocument& file, InputOptions options, std::uint64_t seed,
+                   const Inputs& shared) {
+  options.seed = seed;
+  Inputs inputs = shared;
+  inputs.config = configFrom(file, options);
+  if (inputs.config.scenario) loadScenario(inputs);  // its noise is the seed's
+  spellOutStarts(inputs);
+  return inputs;
+}
+
+std::vector<InputFile> inputFiles(const Inputs& inputs) {
+  const io::RunConfig& config = inputs.config;
+  std::vector<InputFile> files;
+  if (config.scenario) files.push_back({"scenario", config.scenario->file});
+  if (config.log) files.push_back({"log", config.log->file});
+  if (config.map) files.push_back({"map", *config.map});
+  if (config.truth && config.truth->file) files.push_back({"truth", *config.truth->file});
+  return files;
 }
 
 eval::EvaluationOptions evaluationOptions(const io::EvaluationConfig& config) {

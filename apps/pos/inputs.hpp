@@ -39,11 +39,24 @@ struct Inputs {
   std::optional<Truth> truth;
   std::shared_ptr<const sim::Scenario> scenario = {};       ///< where it takes the place of a log
   std::shared_ptr<const map::TunnelMap> scenario_map = {};  ///< what is really there
+  std::optional<eval::TimeGrid> grid = {};  ///< where the run is one of a campaign
 };
 
 Inputs loadInputs(const InputOptions& options);
+/// The inputs of one run of a campaign: the file's content as it was when the campaign began, with the run's
+/// own seed; map and truth are taken over from `shared` instead of being read again.
+Inputs inputsOfRun(const io::YamlDocument& file, InputOptions options, std::uint64_t seed,
+                   const Inputs& shared);
 /// The same from a configuration that was resolved before (run.json).
 Inputs loadInputs(io::RunConfig config);
+
+/// A file that the figures of a run depend on.
+struct InputFile {
+  std::string role;  ///< "log", "scenario", "map" or "truth"
+  std::filesystem::path file;
+};
+/// The log or scenario first.
+std::vector<InputFile> inputFiles(const Inputs& inputs);
 
 /// The configuration with the command line's choices; nothing it names is opened.
 io::RunConfig loadConfig(const InputOptions& options);

@@ -89,6 +89,7 @@ int run(int argc, char** argv) {
   ExitCode code = ExitCode::Ok;
   const pos::app::Verbs verbs{&app, &voice, &code};
   pos::app::addReplay(verbs);
+  pos::app::addCampaign(verbs);
   pos::app::addEvaluate(verbs);
   pos::app::addConvert(verbs);
   pos::app::addCalibrate(verbs);

@@ -94,22 +94,27 @@ void requireCommonTime(const Span& truth, const Span& other, const std::string& 
 
 void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
                        const Voice& voice) {
-  std::size_t checked = 0;
-  std::vector<std::string> missed;
+  std::vector<eval::RequirementResult> results;
   for (const std::string& text : requirements) {
-    for (const eval::RequirementResult& result :
-         eval::check(eval::parseRequirement(text, summary), summary)) {
-      ++checked;
-      if (result.passed) voice.say(result.line);
-      if (!result.passed) missed.push_back(result.line);
-    }
+    for (const eval::RequirementResult& result : eval::check(eval::parseRequirement(text, summary), summary))
+      results.push_back(result);
   }
-  if (missed.empty()) return;
-  std::string lines;
-  for (const std::string& line : missed) lines += (lines.empty() ? "" : "\n            ") + line;
+  requireAllPassed(results, voice);
+}
+
+void requireAllPassed(const std::vector<eval::RequirementResult>& results, const Voice& voice) {
+  std::string missed;
+  std::size_t count = 0;
+  for (const eval::RequirementResult& result : results) {
+    if (result.passed) voice.say(result.line);
+    if (result.passed) continue;
+    missed += (missed.empty() ? "" : "\n            ") + result.line;
+    ++count;
+  }
+  if (count == 0) return;
   throw RequirementMissed(Complaint{
-      .what = std::to_string(missed.size()) + " of " + std::to_string(checked) + " required limits missed",
-      .got = lines});
+      .what = std::to_string(count) + " of " + std::to_string(results.size()) + " required limits missed",
+      .got = missed});
 }
 
 void refuseUnknownMetrics(const std::vector<std::string>& requirements,

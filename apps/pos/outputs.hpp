@@ -7,6 +7,7 @@
 
 #include "common.hpp"
 #include "inputs.hpp"
+#include "pos/eval/requirement.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/run_folder.hpp"
 
@@ -43,6 +44,9 @@ void requireCommonTime(const Span& truth, const Span& other, const std::string& 
 /// Says how each requirement fared; throws RequirementMissed when one was missed.
 void checkRequirements(const eval::RunSummary& summary, const std::vector<std::string>& requirements,
                        const Voice& voice);
+
+/// The same for results already there.
+void requireAllPassed(const std::vector<eval::RequirementResult>& results, const Voice& voice);
 
 /// Throws UsageError for a requirement that no run of these estimators could answer, before the work is done.
 /// Figures of a sensor are left for later: only the log tells its sensors.

@@ -42,6 +42,8 @@ void Recorder::note(const Measurement& measurement, const IngestReport& report) 
   const auto anchor = anchorOf(measurement);
   record_.verdicts.add(measurement.sensor, anchor, report);
   if (anchor) record_.residuals.add(*anchor, measurement.stamp, report);
+  if (record_.nis) record_.nis->add(measurement.stamp, report);
+  if (!report.event.empty()) ++record_.events[std::string(report.event)];
   ++epoch_[static_cast<std::size_t>(report.verdict)];
 }
 

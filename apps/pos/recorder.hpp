@@ -25,6 +25,8 @@ class Recorder {
   Recorder(Recorder&&) = default;
 
   void openFiles(const io::RunFolder& folder);
+  /// Also sums the NIS of applied readings on a campaign's grid.
+  void sumNisOn(const eval::TimeGrid& grid) { record_.nis.emplace(grid); }
   /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator
   /// said.
   IngestReport take(const Measurement& measurement);

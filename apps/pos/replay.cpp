@@ -37,6 +37,7 @@ class Pass {
                               yardstick::makeAnyEstimator(entry.config, inputs.map),
                               inputs.config.record.max_rate);
       if (folder != nullptr) recorders_.back().openFiles(*folder);
+      if (inputs.grid) recorders_.back().sumNisOn(*inputs.grid);
     }
     if (folder != nullptr) events_.emplace(folder->eventsCsv());
   }
@@ -156,7 +157,8 @@ eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {
   const std::optional<Truth> truth =
       inputs.truth ? std::optional(judged(*inputs.truth, config.evaluation.skip_start)) : std::nullopt;
   if (inputs.truth) summary.truth_path = eval::pathOf(*inputs.truth, replayed.first);
-  const eval::EvaluationOptions options = evaluationOptions(config.evaluation);
+  eval::EvaluationOptions options = evaluationOptions(config.evaluation);
+  options.grid = inputs.grid;
   for (const eval::EstimatorRecord& record : replayed.records) {
     summary.estimators.push_back(eval::summarise(record, truth ? &*truth : nullptr, replayed.first, options));
   }

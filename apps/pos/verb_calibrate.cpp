@@ -1,10 +1,11 @@
-/// `pos calibrate latency`: how late a sensor's stamps are, found against another sensor of the same log. No
-/// truth.
+/// `pos calibrate latency`: how late a sensor's stamps are, found against another sensor of the same log,
+/// without truth. `pos calibrate ranges`: what the radio links read too long, found at known poses.
 
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "calibrate_ranges.hpp"
 #include "common.hpp"
 #include "inputs.hpp"
 #include "pos/core/error.hpp"
@@ -92,11 +93,70 @@ ExitCode runLatency(const Options& options, const Voice& voice) {
   return ExitCode::Ok;
 }
 
+struct RangeOptions {
+  InputOptions inputs;
+  RangeCalibrationRequest request;
+  std::vector<double> still;
+  std::string out;
+};
+
+ExitCode runRanges(RangeOptions options, const Voice& voice) {
+  io::RunConfig config = loadConfig(options.inputs);
+  for (io::EstimatorEntry& entry : config.estimators) {  // an older table is what is to be replaced
+    if (auto* dual = std::get_if<estimation::DualUwbConfig>(&entry.config)) dual->range_bias_table.clear();
+  }
+  if (!config.log) {
+    throw UsageError(Complaint{.what = "no log to calibrate from",
+                               .key = "log.file",
+                               .suggestion = "name it in the configuration or with --log"});
+  }
+  if (!options.still.empty()) {
+    options.request.still = Pose2{options.still[0], options.still[1], radians(options.still[2])};
+  }
+  const RangeCalibrationOutcome outcome = calibratedRanges(loadInputs(std::move(config)), options.request);
+  const std::string table = io::rangeBiasYaml(outcome.table);
+  if (options.out.empty()) {
+    print(table);
+  } else {
+    writeFile(options.out, table);
+  }
+  char text[200];
+  std::snprintf(text, sizeof text, "%zu links from %d ranges, %d left out as outliers; residuals %.3f m",
+                outcome.table.links.size(), outcome.samples, outcome.outliers, outcome.residual_sigma);
+  voice.say(text);
+  if (outcome.table.motion) {
+    std::snprintf(text, sizeof text,
+                  "turns about a point %.3f m behind the body frame, course %.2f deg from its x axis",
+                  outcome.table.motion->centre_x, degrees(outcome.table.motion->course_offset));
+    voice.say(text);
+  }
+  return ExitCode::Ok;
+}
+
+void addRanges(CLI::App& calibrate, const Verbs& verbs) {
+  CLI::App* ranges = calibrate.add_subcommand(
+      "ranges",
+      "What every tag and anchor read too long, from known poses (--truth) or standing still (--still)");
+  auto options = std::make_shared<RangeOptions>();
+  addInputs(*ranges, options->inputs);
+  ranges->add_option("--estimator", options->request.estimator,
+                     "Estimator whose tags are meant (default: the first of type dual_uwb)");
+  ranges->add_option("--first-s", options->request.first, "Use this much from the beginning only")
+      ->check(CLI::Range(0.1, 1e6));
+  ranges->add_option("--still", options->still, "The vehicle stands here: X_M Y_M YAW_DEG")->expected(3);
+  ranges
+      ->add_option("--shift-sigma-m", options->request.shift_sigma,
+                   "How far a tag's electrical place may lie from its mount (default 0.02)")
+      ->check(CLI::Range(0.0, 1.0));
+  ranges->add_option("--out", options->out, "File for the table (default: standard output)");
+  addVoice(*ranges, *verbs.voice);
+  ranges->callback([options, verbs] { *verbs.code = runRanges(*options, *verbs.voice); });
+}
+
 }  // namespace
 
 void addCalibrate(const Verbs& verbs) {
-  CLI::App* verb =
-      verbs.app->add_subcommand("calibrate", "Find a sensor's constants from a log, without any truth");
+  CLI::App* verb = verbs.app->add_subcommand("calibrate", "Find a sensor's constants from a log");
   verb->require_subcommand(1);
   CLI::App* latency =
       verb->add_subcommand("latency", "How late the ranges are, against the satellite fixes of the same log");
@@ -109,6 +169,7 @@ void addCalibrate(const Verbs& verbs) {
   latency->add_flag("--json", options->json, "Print JSON");
   addVoice(*latency, *verbs.voice);
   latency->callback([options, verbs] { *verbs.code = runLatency(*options, *verbs.voice); });
+  addRanges(*verb, verbs);
 }
 
 }  // namespace pos::app

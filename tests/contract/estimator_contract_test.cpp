@@ -16,13 +16,19 @@ namespace {
 using pos::testing::runStamp;
 using pos::testing::smallMap;
 using pos::testing::smallRun;
+using pos::testing::SmallRunOptions;
 using pos::testing::truthAt;
 
 struct Subject {
   std::string name;
   EstimatorConfig config;
   bool uses_scans = false;
+  bool two_tags = false;
+  bool uses_gyro = false;
 };
+
+const Eigen::Vector3d kFirstTag(0.1, 0.5, 1.0);
+const Eigen::Vector3d kSecondTag(0.0, -0.5, 1.0);
 
 std::ostream& operator<<(std::ostream& out, const Subject& subject) {
   return out << subject.name;
@@ -62,7 +68,32 @@ std::vector<Subject> subjects() {
   MrptMclConfig mrpt_scan = mrpt;
   mrpt_scan.use_ranges = false;
   mrpt_scan.use_scans = true;
-  return {{"dead_reckoning", dead_reckoning},
+  DualUwbConfig dual;  // finds its start itself
+  dual.range_sigma = 0.1;
+  dual.acceleration_density = 1.0;
+  dual.yaw_acceleration_density = 1.0;
+  DualUwbConfig dual_known = dual;
+  dual_known.start = startAtTruth(StartMode::Known);
+  DualUwbConfig dual_biases = dual;
+  dual_biases.tags = {{0, kFirstTag}, {1, kSecondTag}};
+  dual_biases.link_bias = {0.0, 0.05, 0.01};
+  dual_biases.motion = DualUwbConfig::Motion::Free;
+  DualUwbConfig dual_gyro = dual;
+  dual_gyro.variant = DualUwbConfig::Variant::FilterGyro;
+  DualUwbConfig snapshot = dual;
+  snapshot.variant = DualUwbConfig::Variant::Snapshot;
+  DualUwbConfig differential = dual_known;
+  differential.variant = DualUwbConfig::Variant::Differential;
+  DualUwbConfig rigid = dual;
+  rigid.variant = DualUwbConfig::Variant::Rigid;
+  return {{"dual_uwb_filter", dual, false, true},
+          {"dual_uwb_filter_known", dual_known, false, true},
+          {"dual_uwb_filter_biases", dual_biases, false, true},
+          {"dual_uwb_filter_gyro", dual_gyro, false, true, true},
+          {"dual_uwb_snapshot", snapshot, false, true},
+          {"dual_uwb_differential", differential, false, true},
+          {"dual_uwb_rigid", rigid, false, true},
+          {"dead_reckoning", dead_reckoning},
           {"range_odometry", known},
           {"range_odometry_unknown_heading", unknown_heading},
           {"range_odometry_unknown", unknown},
@@ -79,13 +110,21 @@ class EveryEstimator : public ::testing::TestWithParam<Subject> {
     return yardstick::makeAnyEstimator(GetParam().config, smallMap());
   }
   std::vector<Measurement> log(double duration = 6.0) const {
-    return smallRun({.duration = duration, .scans = GetParam().uses_scans});
+    SmallRunOptions options{
+        .duration = duration, .scans = GetParam().uses_scans, .gyro = GetParam().uses_gyro};
+    if (GetParam().two_tags) {
+      options.tag_body = kFirstTag;
+      options.second_tag = kSecondTag;
+    }
+    return smallRun(options);
   }
 };
 
 bool sameBits(const Estimate& a, const Estimate& b) {
   return a.stamp == b.stamp && a.T_map_body.translation == b.T_map_body.translation &&
-         a.T_map_body.rotation.coeffs() == b.T_map_body.rotation.coeffs() && a.covariance == b.covariance;
+         a.T_map_body.rotation.coeffs() == b.T_map_body.rotation.coeffs() && a.covariance == b.covariance &&
+         a.twist.has_value() == b.twist.has_value() &&
+         (!a.twist || (a.twist->rates == b.twist->rates && a.twist->covariance == b.twist->covariance));
 }
 
 bool sameBits(const std::optional<Estimate>& a, const std::optional<Estimate>& b) {
@@ -99,6 +138,11 @@ void expectSound(const Estimate& estimate) {
   EXPECT_LE((P - P.transpose()).norm(), 1e-9 * (1.0 + P.norm()));
   const double least = Eigen::SelfAdjointEigenSolver<Matrix<6, 6>>(P).eigenvalues().minCoeff();
   EXPECT_GE(least, -1e-9 * (1.0 + P.norm()));
+  if (!estimate.twist) return;
+  const Matrix<3, 3>& V = estimate.twist->covariance;
+  ASSERT_TRUE(V.allFinite() && estimate.twist->rates.allFinite());
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix<3, 3>>(V).eigenvalues().minCoeff(),
+            -1e-9 * (1.0 + V.norm()));
 }
 
 std::vector<Measurement> oddities() {
@@ -163,6 +207,7 @@ TEST_P(EveryEstimator, StrangeReadingsGetAVerdictAndChangeNothing) {
   for (const Measurement& m : log()) (void)estimator->ingest(m);
   const auto before = estimator->estimateAt(runStamp(7.0));
   for (const Measurement& odd : oddities()) {
+    if (GetParam().uses_gyro && std::holds_alternative<ImuSample>(odd.reading)) continue;  // not odd to it
     const IngestReport report = estimator->ingest(odd);
     EXPECT_NE(report.verdict, Verdict::Applied) << readingName(odd.reading);
     EXPECT_FALSE(report.reason.empty()) << readingName(odd.reading);

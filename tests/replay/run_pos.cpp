@@ -2,10 +2,14 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -60,6 +64,17 @@ int exitCodeOf(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+pid_t spawned(const std::vector<std::string>& arguments, const Streams& streams) {
+  std::vector<std::string> words{POS_BINARY};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> environment = bareEnvironment();
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, POS_BINARY, streams.get(), nullptr, pointers(words).data(),
+                                 pointers(environment).data());
+  if (failed != 0) throw std::runtime_error(std::string("cannot start ") + POS_BINARY);
+  return child;
+}
+
 }  // namespace
 
 int RunResult::errLines() const {
@@ -80,22 +95,37 @@ Bench::~Bench() {
 }
 
 RunResult Bench::pos(const std::vector<std::string>& arguments) const {
-  std::vector<std::string> words{POS_BINARY};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<std::string> environment = bareEnvironment();
   const fs::path out = folder_.string() + ".stdout";
   const fs::path err = folder_.string() + ".stderr";
-  const Streams streams(folder_, out, err);
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, POS_BINARY, streams.get(), nullptr, pointers(words).data(),
-                                 pointers(environment).data());
-  if (failed != 0) throw std::runtime_error(std::string("cannot start ") + POS_BINARY);
   RunResult result;
-  result.exit_code = exitCodeOf(child);
+  result.exit_code = exitCodeOf(spawned(arguments, Streams(folder_, out, err)));
   result.out = contents(out);
   result.err = contents(err);
   fs::remove(out);
   fs::remove(err);
+  return result;
+}
+
+RunResult Bench::posStopped(const std::vector<std::string>& arguments, const std::string& words,
+                            int signal) const {
+  const fs::path pipe = folder_.string() + ".pipe";
+  fs::remove(pipe);
+  if (mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("mkfifo failed");
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);  // first, or the child would wait for it
+  const pid_t child = spawned(arguments, Streams(folder_, "/dev/null", pipe));
+  fcntl(reader, F_SETFL, 0);
+  RunResult result;
+  bool sent = false;
+  std::array<char, 4096> block{};
+  for (ssize_t n = 0; (n = read(reader, block.data(), block.size())) > 0;) {
+    result.err.append(block.data(), static_cast<std::size_t>(n));
+    if (sent || result.err.find(words) == std::string::npos) continue;
+    kill(child, signal);
+    sent = true;
+  }
+  close(reader);
+  fs::remove(pipe);
+  result.exit_code = exitCodeOf(child);
   return result;
 }
 

@@ -31,6 +31,9 @@ class Bench {
 
   /// Runs `pos` without a shell and with a bare environment; waits for its end.
   RunResult pos(const std::vector<std::string>& arguments) const;
+  /// Starts it, sends `signal` as soon as `words` stand on its standard error, and waits for its end. Its
+  /// standard output is thrown away.
+  RunResult posStopped(const std::vector<std::string>& arguments, const std::string& words, int signal) const;
 
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;  ///< empty when there is no such file

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pos/core/measurement.hpp"
@@ -29,6 +30,9 @@ struct SmallRunOptions {
   double outlier_share = 0.0;
   bool scans = false;
   Eigen::Vector3d tag_body{0.3, 0.0, 1.0};
+  /// With a second tag both range to every anchor at one moment, instead of one anchor after another.
+  std::optional<Eigen::Vector3d> second_tag = {};
+  bool gyro = false;
 };
 
 inline Stamp runStamp(double t) {
@@ -116,19 +120,34 @@ inline std::vector<Measurement> smallRun(const SmallRunOptions& options) {
     odometry.interval = durationFromSeconds(dt);
     log.push_back({runStamp(t), "wheels", odometry});
 
-    const map::Anchor& anchor = map->anchors[static_cast<std::size_t>(k) % map->anchors.size()];
+    if (options.gyro) {
+      ImuSample imu;
+      imu.angular.z() = wrapAngle(truthAt(t + 1e-3).yaw - truthAt(t - 1e-3).yaw) / 2e-3;
+      log.push_back({runStamp(t), "imu", imu});
+    }
     const double heard = t + 0.4 * dt;
-    const Pose3 T_map_body = Pose3::fromPlanar(truthAt(heard - options.latency));
-    const double distance = (T_map_body * options.tag_body - anchor.p_map).norm();
-    BeaconRange range;
-    range.anchor = anchor.id;
-    range.tag_body = options.tag_body;
-    range.range =
-        options.range_scale * distance + options.range_offset + random.normal(0.0, options.range_sigma);
-    if (random.bernoulli(options.outlier_share))
-      range.range += random.uniform(3.0, 20.0) * (random.bernoulli(0.5) ? 1.0 : -1.0);
-    range.range = std::max(range.range, 0.05);
-    log.push_back({runStamp(heard), "uwb", range});
+    const auto ranged = [&](const map::Anchor& anchor, TagId tag, const Eigen::Vector3d& tag_body) {
+      const Pose3 T_map_body = Pose3::fromPlanar(truthAt(heard - options.latency));
+      const double distance = (T_map_body * tag_body - anchor.p_map).norm();
+      BeaconRange range;
+      range.tag = tag;
+      range.anchor = anchor.id;
+      range.tag_body = tag_body;
+      range.range =
+          options.range_scale * distance + options.range_offset + random.normal(0.0, options.range_sigma);
+      if (random.bernoulli(options.outlier_share))
+        range.range += random.uniform(3.0, 20.0) * (random.bernoulli(0.5) ? 1.0 : -1.0);
+      range.range = std::max(range.range, 0.05);
+      log.push_back({runStamp(heard), "uwb", range});
+    };
+    if (options.second_tag) {
+      for (const map::Anchor& anchor : map->anchors) {
+        ranged(anchor, 0, options.tag_body);
+        ranged(anchor, 1, *options.second_tag);
+      }
+    } else {
+      ranged(map->anchors[static_cast<std::size_t>(k) % map->anchors.size()], 0, options.tag_body);
+    }
     if (options.scans && k % 5 == 0)
       log.push_back({runStamp(heard), "laser", scanAt(*map->grid, truthAt(heard), random)});
   }

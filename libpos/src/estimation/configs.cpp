@@ -171,6 +171,53 @@ MrptMclConfig validated(MrptMclConfig config) {
   return config;
 }
 
+SightConfig validated(SightConfig config) {
+  if (!(config.confidence > 0.0 && config.confidence < 1.0)) {
+    refuse("the gate needs a confidence", "confidence", std::to_string(config.confidence), "> 0 and < 1");
+  }
+  requirePositive(config.blocked_after, "blocked_after");
+  requireNotNegative(config.blocked_for, "blocked_for_s");
+  requirePositive(config.restart_after, "restart_after_s");
+  requireShare(config.agreement_fraction, "agreement_fraction");
+  return config;
+}
+
+DualUwbConfig validated(DualUwbConfig config) {
+  using Variant = DualUwbConfig::Variant;
+  const bool filter = config.variant == Variant::Filter || config.variant == Variant::FilterGyro;
+  requireValid(config.start, "start");
+  requireValid(config.gate, "gate");
+  requireUniqueTags(config.tags);
+  if (config.tags.size() == 1) refuse("one tag has no heading", "tags", "1 tag", "two or more, or none");
+  requireNotNegative(config.still_at_start, "still_at_start_s");
+  requireFinite(config.body_height, "body_height_m");
+  requirePositive(config.range_sigma, "range_sigma_m");
+  requireFinite(config.range_offset, "range_offset_m");
+  requireCalibration(config.link_bias, "link_bias", "m");
+  requireCalibration(config.gyro_bias, "gyro_bias", "deg_per_s");
+  if (config.link_bias.sigma > 0.0 && (!filter || config.tags.empty())) {
+    refuse("a state for each link needs a filter, and tags that are known beforehand", "link_bias.sigma_m",
+           std::to_string(config.link_bias.sigma), "0, or variant filter or filter_gyro with a list of tags");
+  }
+  requireNotNegative(config.epoch_span, "epoch_span_s");
+  requirePositive(config.acceleration_density, "acceleration_density_m_per_s_per_sqrt_s");
+  requirePositive(config.yaw_acceleration_density, "yaw_acceleration_density_deg_per_s_per_sqrt_s");
+  requirePositive(config.max_speed, "max_speed_m_per_s");
+  requirePositive(config.max_yaw_rate, "max_yaw_rate_deg_per_s");
+  requireNotNegative(config.lateral_sigma, "lateral_sigma_m_per_s");
+  requireNotNegative(config.wheel_speed_sigma, "wheel_speed_sigma_m_per_s");
+  requireNotNegative(config.gyro_noise, "gyro_noise_deg_per_sqrt_s");
+  if (!(config.fit_significance > 0.0 && config.fit_significance < 0.5)) {
+    refuse("the residual test needs a significance", "fit_significance",
+           std::to_string(config.fit_significance), "> 0 and < 0.5");
+  }
+  if (config.roadway.size() == 1 || config.roadway.size() == 2) {
+    refuse("these corners enclose no ground", "roadway", std::to_string(config.roadway.size()) + " corners",
+           "at least three, or none");
+  }
+  return config;
+}
+
 EstimatorConfig validated(EstimatorConfig config) {
   std::visit([](const auto& chosen) { (void)validated(chosen); }, config);
   return config;

@@ -4,6 +4,8 @@
 
 #include "pos/core/error.hpp"
 #include "pos/estimation/dead_reckoning.hpp"
+#include "pos/estimation/dual_uwb_epochs.hpp"
+#include "pos/estimation/dual_uwb_filter.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/range_odometry.hpp"
 #include "pos/estimation/sins_dr.hpp"
@@ -28,13 +30,19 @@ struct Make {
   std::unique_ptr<Estimator> operator()(const MrptMclConfig&) const {
     throw ContractError("mrpt_mcl is made by pos::yardstick, not by pos::estimation");
   }
+  std::unique_ptr<Estimator> operator()(const DualUwbConfig& c) const {
+    using Variant = DualUwbConfig::Variant;
+    if (c.variant == Variant::Filter || c.variant == Variant::FilterGyro)
+      return std::make_unique<DualUwbFilter>(c, map);
+    return std::make_unique<DualUwbEpochs>(c, map);
+  }
 };
 
 }  // namespace
 
 std::string_view typeName(const EstimatorConfig& config) {
-  static constexpr std::array<std::string_view, 5> kNames{"dead_reckoning", "range_odometry", "mcl",
-                                                          "mrpt_mcl", "sins_dr"};
+  static constexpr std::array<std::string_view, 6> kNames{"dead_reckoning", "range_odometry", "mcl",
+                                                          "mrpt_mcl",       "dual_uwb",       "sins_dr"};
   static_assert(kNames.size() == std::variant_size_v<EstimatorConfig>);
   return kNames[config.index()];
 }

@@ -101,14 +101,21 @@ std::vector<std::string> shortForms(const std::string& full) {
 }
 
 /// Every accepted spelling with the full name it stands for.
-std::map<std::string, std::string> spellings(const RunSummary& run) {
+std::map<std::string, std::string> spellings(const std::vector<NamedMetrics>& estimators) {
   std::map<std::string, std::string> all;
-  std::vector<EstimatorSummary> none(run.estimators.empty() ? 1 : 0);
-  for (const EstimatorSummary& estimator : run.estimators.empty() ? none : run.estimators) {
-    for (const auto& [full, value] : metrics(estimator, run.end - run.start)) {
+  for (const NamedMetrics& estimator : estimators) {
+    for (const auto& [full, value] : estimator.values) {
       all[full] = full;
       for (const std::string& form : shortForms(full)) all.emplace(form, full);
     }
+  }
+  return all;
+}
+
+std::vector<NamedMetrics> namedMetrics(const RunSummary& run) {
+  std::vector<NamedMetrics> all;
+  for (const EstimatorSummary& estimator : run.estimators) {
+    all.push_back({estimator.name, metrics(estimator, run.end - run.start)});
   }
   return all;
 }
@@ -140,24 +147,25 @@ double parsedLimit(const std::string& text, const std::string& number) {
 }
 
 /// The estimator that `left` begins with ("name."), the longest where several do; empty for none.
-std::string leadingEstimator(const std::string& left, const RunSummary& run) {
+std::string leadingEstimator(const std::string& left, const std::vector<NamedMetrics>& estimators) {
   std::string found;
-  for (const EstimatorSummary& estimator : run.estimators) {
-    if (left.starts_with(estimator.name + ".") && estimator.name.size() > found.size())
-      found = estimator.name;
+  for (const NamedMetrics& each : estimators) {
+    if (left.starts_with(each.estimator + ".") && each.estimator.size() > found.size())
+      found = each.estimator;
   }
   return found;
 }
 
 [[noreturn]] void throwUnknown(const std::string& text, const std::string& left,
-                               const std::map<std::string, std::string>& known, const RunSummary& run) {
+                               const std::map<std::string, std::string>& known,
+                               const std::vector<NamedMetrics>& estimators) {
   std::vector<std::string> candidates;
   for (const auto& [spelling, full] : known) candidates.push_back(spelling);
   const std::size_t dot = left.find('.');
   const bool metric_after_dot = dot != std::string::npos && known.contains(left.substr(dot + 1));
   if (metric_after_dot) {
     std::vector<std::string> names;
-    for (const EstimatorSummary& estimator : run.estimators) names.push_back(estimator.name);
+    for (const NamedMetrics& each : estimators) names.push_back(each.estimator);
     const std::string guess = nearest(left.substr(0, dot), names);
     throwUsage(text, "unknown estimator", left.substr(0, dot),
                guess.empty() ? "" : "did you mean " + guess + "?");
@@ -193,15 +201,14 @@ const char* symbol(Relation relation) {
   return "<";
 }
 
-RequirementResult checkOne(const Requirement& requirement, const EstimatorSummary& estimator, Duration span) {
-  const Metrics all = metrics(estimator, span);
-  const auto found = all.find(requirement.metric);
-  const std::optional<double> value = found == all.end() ? std::nullopt : found->second;
+RequirementResult checkOne(const Requirement& requirement, const NamedMetrics& estimator) {
+  const auto found = estimator.values.find(requirement.metric);
+  const std::optional<double> value = found == estimator.values.end() ? std::nullopt : found->second;
   const bool passed = value && holds(*value, requirement.relation, requirement.limit);
   const std::string shown = value ? compact(*value) : "no value in this run";
-  return {passed, std::string(passed ? "pass  " : "FAIL  ") + estimator.name + ": " + requirement.metric +
-                      " = " + shown + ", required " + symbol(requirement.relation) + " " +
-                      compact(requirement.limit)};
+  return {passed, std::string(passed ? "pass  " : "FAIL  ") + estimator.estimator + ": " +
+                      requirement.metric + " = " + shown + ", required " + symbol(requirement.relation) +
+                      " " + compact(requirement.limit)};
 }
 
 }  // namespace
@@ -223,7 +230,7 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
   return all;
 }
 
-Requirement parseRequirement(const std::string& text, const RunSummary& run) {
+Requirement parseRequirement(const std::string& text, const std::vector<NamedMetrics>& estimators) {
   const std::size_t at = text.find_first_of("<>");
   if (at == std::string::npos) throwUsage(text, "no comparison", text, "p95_xy<1.0");
   const bool or_equal = at + 1 < text.size() && text[at + 1] == '=';
@@ -233,24 +240,35 @@ Requirement parseRequirement(const std::string& text, const RunSummary& run) {
   if (text[at] == '>') requirement.relation = or_equal ? Relation::GreaterOrEqual : Relation::Greater;
   requirement.limit = parsedLimit(text, trimmed(text.substr(at + (or_equal ? 2 : 1))));
 
-  const std::map<std::string, std::string> known = spellings(run);
+  const std::map<std::string, std::string> known = spellings(estimators);
   const std::string left = trimmed(text.substr(0, at));
-  requirement.estimator = known.contains(left) ? "" : leadingEstimator(left, run);
+  requirement.estimator = known.contains(left) ? "" : leadingEstimator(left, estimators);
   const std::string metric =
       requirement.estimator.empty() ? left : left.substr(requirement.estimator.size() + 1);
   const auto found = known.find(metric);
-  if (found == known.end()) throwUnknown(text, metric, known, run);
+  if (found == known.end()) throwUnknown(text, metric, known, estimators);
   requirement.metric = found->second;
   return requirement;
 }
 
-std::vector<RequirementResult> check(const Requirement& requirement, const RunSummary& run) {
+Requirement parseRequirement(const std::string& text, const RunSummary& run) {
+  // a run without estimators still knows the names that every estimator has
+  if (run.estimators.empty()) return parseRequirement(text, {{"", metrics({}, run.end - run.start)}});
+  return parseRequirement(text, namedMetrics(run));
+}
+
+std::vector<RequirementResult> check(const Requirement& requirement,
+                                     const std::vector<NamedMetrics>& estimators) {
   std::vector<RequirementResult> results;
-  for (const EstimatorSummary& estimator : run.estimators) {
-    if (!requirement.estimator.empty() && estimator.name != requirement.estimator) continue;
-    results.push_back(checkOne(requirement, estimator, run.end - run.start));
+  for (const NamedMetrics& estimator : estimators) {
+    if (!requirement.estimator.empty() && estimator.estimator != requirement.estimator) continue;
+    results.push_back(checkOne(requirement, estimator));
   }
   return results;
+}
+
+std::vector<RequirementResult> check(const Requirement& requirement, const RunSummary& run) {
+  return check(requirement, namedMetrics(run));
 }
 
 }  // namespace pos::eval

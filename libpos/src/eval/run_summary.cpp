@@ -128,6 +128,7 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   summary.residuals = record.residuals.summary();
   summary.compute = record.compute;
   summary.diagnostics = record.diagnostics;
+  summary.events = record.events;
   summary.path = plainPath(record.estimates, start, options.plot_points);
   if (truth == nullptr || truth->poses.empty()) return summary;
   const Matches matches = associate(record.estimates, *truth, options.association);
@@ -144,6 +145,10 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   e.yaw = errorPlot(errors, Component::Yaw, start, options.plot_points);
   e.nees_xy = neesPlot(errors, start, options.plot_points);
   if (!errors.empty()) summary.path = errorPath(errors, start, options.plot_points);
+  if (options.grid) {
+    summary.cells = gridCells(errors, *options.grid);
+    if (record.nis) summary.cells = record.nis->into(std::move(summary.cells));
+  }
   summary.evaluation = std::move(e);
   return summary;
 }

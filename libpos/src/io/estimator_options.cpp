@@ -23,23 +23,6 @@ using estimation::TagMount;
 
 constexpr auto kValid = [](const auto& config) { return validated(config); };
 
-OptionTable<TagMount> tagOptions() {
-  return OptionTable<TagMount>("tag", "Where a radio tag sits on the vehicle.")
-      .integer("id", &TagMount::id, anything(), "The radio's own number of the tag.")
-      .required()
-      .number(
-          "x_m", [](auto& tag) -> auto& { return tag.p_body.x(); }, between(-100, 100),
-          "Forward of the body frame.")
-      .required()
-      .number(
-          "y_m", [](auto& tag) -> auto& { return tag.p_body.y(); }, between(-100, 100),
-          "Left of the body frame.")
-      .required()
-      .number(
-          "z_m", [](auto& tag) -> auto& { return tag.p_body.z(); }, between(-100, 100),
-          "Above the body frame.");
-}
-
 OptionTable<GateConfig> gateOptions() {
   return OptionTable<GateConfig>("gate",
                                  "Which ranges are rejected, and when the filter doubts itself instead.")
@@ -52,18 +35,6 @@ OptionTable<GateConfig> gateOptions() {
       .number("inflation", &GateConfig::inflation, between(1, 10000),
               "Factor on the pose covariance each time the gate opens.")
       .check(kValid);
-}
-
-/// `unit` is the ending of the value's key: "m" for value_m, sigma_m, walk_m_per_sqrt_s; empty for a factor.
-OptionTable<CalibrationState> calibrationOptions(const std::string& title, const std::string& unit,
-                                                 Range value, double sigma_max) {
-  const std::string of_unit = unit.empty() ? "" : "_" + unit;
-  return OptionTable<CalibrationState>(title, "A slowly changing unknown of a sensor.")
-      .number("value" + of_unit, &CalibrationState::value, value, "Value at the start.")
-      .number("sigma" + of_unit, &CalibrationState::sigma, between(0, sigma_max),
-              "How sure the value is at the start; 0 holds it fixed.")
-      .number("walk" + of_unit + "_per_sqrt_s", &CalibrationState::walk_per_sqrt_s, between(0, sigma_max),
-              "How fast it wanders (random walk).");
 }
 
 OptionTable<RangeLikelihood> rangeLikelihoodOptions() {
@@ -114,6 +85,34 @@ OptionTable<ParticleCount> particleOptions() {
 }
 
 }  // namespace
+
+OptionTable<TagMount> tagOptions() {
+  return OptionTable<TagMount>("tag", "Where a radio tag sits on the vehicle.")
+      .integer("id", &TagMount::id, anything(), "The radio's own number of the tag.")
+      .required()
+      .number(
+          "x_m", [](auto& tag) -> auto& { return tag.p_body.x(); }, between(-100, 100),
+          "Forward of the body frame.")
+      .required()
+      .number(
+          "y_m", [](auto& tag) -> auto& { return tag.p_body.y(); }, between(-100, 100),
+          "Left of the body frame.")
+      .required()
+      .number(
+          "z_m", [](auto& tag) -> auto& { return tag.p_body.z(); }, between(-100, 100),
+          "Above the body frame.");
+}
+
+OptionTable<CalibrationState> calibrationOptions(const std::string& title, const std::string& unit,
+                                                 Range value, double sigma_max) {
+  const std::string of_unit = unit.empty() ? "" : "_" + unit;
+  return OptionTable<CalibrationState>(title, "A slowly changing unknown of a sensor.")
+      .number("value" + of_unit, &CalibrationState::value, value, "Value at the start.")
+      .number("sigma" + of_unit, &CalibrationState::sigma, between(0, sigma_max),
+              "How sure the value is at the start; 0 holds it fixed.")
+      .number("walk" + of_unit + "_per_sqrt_s", &CalibrationState::walk_per_sqrt_s, between(0, sigma_max),
+              "How fast it wanders (random walk).");
+}
 
 OptionTable<StartConfig> startOptions() {
   return OptionTable<StartConfig>("start", "What is known of the pose at the first measurement.")
@@ -266,6 +265,7 @@ OptionTable<EstimatorEntry> estimatorOptions() {
                    "Planar Kalman filter on odometry and radio ranges.")
       .alternative("mcl", config, mclOptions(), "Particle filter on the anchors and the grid of the map.")
       .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.")
+      .alternative("dual_uwb", config, dualUwbOptions(), "Two or more radio tags: pose, speed and yaw rate.")
       .alternative("sins_dr", config, sinsDrOptions(),
                    "Inertial navigation and wheels, with slip isolation.");
 }

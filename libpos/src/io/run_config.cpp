@@ -2,6 +2,7 @@
 
 #include "pos/io/files.hpp"
 #include "pos/io/overrides.hpp"
+#include "pos/io/text.hpp"
 
 namespace pos::io {
 namespace {
@@ -162,6 +163,23 @@ OptionTable<ScenarioSource> scenarioSourceOptions() {
               "Only so much of the scenario; all of it where absent.");
 }
 
+OptionTable<CampaignConfig> campaignOptions() {
+  return OptionTable<CampaignConfig>("campaign", "How many runs are taken together by `pos campaign`.")
+      .number("step_s", &CampaignConfig::step, between(0.0001, 86400),
+              "Time between the moments at which the runs are compared; 1 / record.max_rate_hz where absent.")
+      .text("baseline", &CampaignConfig::baseline,
+            "Name of the estimator that the others are compared with; the first where absent.");
+}
+
+void requireKnownBaseline(const RunConfig& config) {
+  if (!config.campaign.baseline) return;
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : config.estimators) names.push_back(entry.name);
+  if (std::find(names.begin(), names.end(), *config.campaign.baseline) != names.end()) return;
+  refuse("the baseline is none of the estimators", "campaign.baseline", *config.campaign.baseline,
+         "one of: " + text::joined(names));
+}
+
 /// A run has one input: a recording with its truth, or a scenario that knows its own.
 void requireOneInput(const RunConfig& config) {
   if (!config.scenario) return;
@@ -206,12 +224,15 @@ OptionTable<RunConfig> runOptions() {
             "What to know of single sensors; others are used as they are.")
       .table("evaluation", &RunConfig::evaluation, evaluationOptions(),
              "How estimates are compared with the truth.")
+      .table("campaign", &RunConfig::campaign, campaignOptions(),
+             "How many runs are taken together by `pos campaign`.")
       .list("estimators", &RunConfig::estimators, estimatorOptions(), "The estimators to run side by side.")
       .required()
       .check([](const RunConfig& config) {
         requireUniqueEstimators(config.estimators);
         requireUniqueSensors(config.sensors);
         requireOneInput(config);
+        requireKnownBaseline(config);
       });
 }
 
@@ -219,6 +240,7 @@ RunConfig validated(RunConfig config) {
   requireUniqueEstimators(config.estimators);
   requireUniqueSensors(config.sensors);
   requireOneInput(config);
+  requireKnownBaseline(config);
   if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
   withKeyPrefix("faults", [&] { requireOrder(config.faults); });
   for (std::size_t i = 0; i < config.estimators.size(); ++i) {
@@ -255,6 +277,13 @@ RunConfig runConfigFrom(const YamlDocument& document, const std::filesystem::pat
   if (config.scenario) resolve(config.scenario->file);
   if (config.map) resolve(*config.map);
   if (config.truth && config.truth->file) resolve(*config.truth->file);
+  for (EstimatorEntry& entry : config.estimators) {
+    auto* dual = std::get_if<estimation::DualUwbConfig>(&entry.config);
+    if (dual == nullptr || dual->range_bias_table.empty()) continue;
+    std::filesystem::path table = dual->range_bias_table;
+    resolve(table);
+    dual->range_bias_table = table.string();
+  }
   return config;
 }
 

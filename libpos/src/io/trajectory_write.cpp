@@ -19,12 +19,16 @@ constexpr const char* kEstimateHeader =
     "stamp_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,"
     "sigma_x_m,sigma_y_m,sigma_z_m,sigma_yaw_deg,sigma_pitch_deg,sigma_roll_deg,"
     "corr_x_y,corr_x_yaw,corr_y_yaw,"
-    "applied,gated,too_old,unsupported,degenerate,not_initialised";
+    "applied,gated,too_old,unsupported,degenerate,not_initialised,"
+    "v_forward_m_per_s,v_left_m_per_s,yaw_rate_deg_per_s,"
+    "sigma_v_forward_m_per_s,sigma_v_left_m_per_s,sigma_yaw_rate_deg_per_s";
 
 void requireFinite(const Estimate& estimate) {
   const Pose3& T = estimate.T_map_body;
   ensure(T.translation.allFinite() && T.rotation.coeffs().allFinite() && estimate.covariance.allFinite(),
          "an estimate that is not finite reached a trajectory file");
+  ensure(!estimate.twist || (estimate.twist->rates.allFinite() && estimate.twist->covariance.allFinite()),
+         "a velocity that is not finite reached a trajectory file");
 }
 
 std::string tumRow(Stamp stamp, const Pose3& T_map_body) {
@@ -76,6 +80,17 @@ std::string covarianceCells(const Matrix<6, 6>& P) {
   row += ',' + text::shortest(correlation(P, 0, 1));
   row += ',' + text::shortest(correlation(P, 0, 5));
   row += ',' + text::shortest(correlation(P, 1, 5));
+  return row;
+}
+
+/// Empty cells where the estimator does not know how fast it moves.
+std::string twistCells(const std::optional<PlanarTwist>& twist) {
+  if (!twist) return ",,,,,,";
+  const auto sigma = [&](int i) { return std::sqrt(std::max(twist->covariance(i, i), 0.0)); };
+  std::string row;
+  for (const double value : {twist->rates[0], twist->rates[1], degrees(twist->rates[2])})
+    row += ',' + text::shortest(value);
+  for (const double value : {sigma(0), sigma(1), degrees(sigma(2))}) row += ',' + text::shortest(value);
   return row;
 }
 
@@ -131,7 +146,7 @@ void EstimateCsvWriter::write(const Estimate& estimate, const EpochVerdicts& ver
   std::string row = text::stampSeconds(estimate.stamp) + poseCells(estimate.T_map_body) +
                     covarianceCells(estimate.covariance);
   for (const std::uint64_t count : verdicts) row += ',' + std::to_string(count);
-  lines_.write(row);
+  lines_.write(row + twistCells(estimate.twist));
 }
 
 void writeTum(const std::filesystem::path& path, const Truth& truth) {

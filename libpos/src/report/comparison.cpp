@@ -200,8 +200,7 @@ std::string truthSigmaNote(const eval::RunSummary& run) {
   return "";
 }
 
-std::string comparisonTable(const eval::RunSummary& run) {
-  const Comparison table = comparison(run);
+std::string tableText(const Comparison& table) {
   std::vector<std::vector<std::string>> lines{table.columns};
   bool any_best = false;
   for (const auto& row : table.rows) {
@@ -227,7 +226,11 @@ std::string comparisonTable(const eval::RunSummary& run) {
       text += "\n";
     }
   }
-  if (any_best) text += "* best in its column\n";
+  return any_best ? text + "* best in its column\n" : text;
+}
+
+std::string comparisonTable(const eval::RunSummary& run) {
+  std::string text = tableText(comparison(run));
   if (const std::string note = truthSigmaNote(run); !note.empty()) text += note + "\n";
   return text;
 }

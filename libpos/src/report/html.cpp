@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "html_parts.hpp"
 #include "pos/report/comparison.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/text.hpp"
@@ -11,59 +12,13 @@ namespace pos::report {
 
 namespace {
 
-constexpr std::string_view kStyle = R"(<style>
-:root{color-scheme:light dark;--paper:#fff;--back:#f4f6f8;--ink:#1c2530;--muted:#5b6876;--line:#d9dfe5;--accent:#0072b2;
---warn-back:#fff4e0;--warn-line:#d58a00;--best:#e6f2fa}
-@media(prefers-color-scheme:dark){:root{--paper:#161b22;--back:#0d1117;--ink:#e6edf3;--muted:#9aa7b4;--line:#2f3843;
---accent:#4ea8de;--warn-back:#2e2412;--warn-line:#e0a030;--best:#15303f}}
-*{box-sizing:border-box}body{margin:0;background:var(--back);color:var(--ink);
-font:16px/1.5 system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif}
-main{max-width:1160px;margin:0 auto;padding:28px 20px 60px}h1{font-size:1.7rem;line-height:1.2;margin:0 0 .3rem}
-h2{font-size:1.2rem;margin:2.4rem 0 .7rem}.facts{color:var(--muted);display:flex;flex-wrap:wrap;gap:.2rem 1.6rem;margin:0}
-.facts div{display:flex;gap:.45rem}.facts dt{font-weight:600}.facts dd{margin:0;color:var(--ink);overflow-wrap:anywhere}
-.warnings{background:var(--warn-back);border-left:4px solid var(--warn-line);border-radius:4px;margin:1.4rem 0 0;
-padding:.7rem 1rem}.warnings ul{margin:.2rem 0 0;padding-left:1.2rem}
-.scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--line);border-radius:6px}
-table{border-collapse:collapse;width:100%;font-size:.86rem;font-variant-numeric:tabular-nums}
-th,td{padding:.42rem .5rem;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
-small{font-size:.78rem;font-weight:400;color:var(--muted)}tbody tr:last-child td,tbody tr:last-child th{border-bottom:0}th:first-child,td:first-child{text-align:left}
-thead th{font-weight:600;color:var(--muted);vertical-align:bottom;white-space:normal}tbody th{font-weight:600;white-space:normal;overflow-wrap:break-word;max-width:16rem}
-td.best{background:var(--best);font-weight:600}.star{color:var(--accent)}
-.note{color:var(--muted);font-size:.88rem;margin:.5rem 0 0}
-figure{margin:0 0 1.6rem;background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:14px 14px 10px}
-figure svg{display:block;width:100%;height:auto;max-width:1120px}
-figcaption{color:var(--muted);font-size:.9rem;margin:.5rem .3rem 0;max-width:80ch}
-details{background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:.6rem 1rem}
-summary{cursor:pointer;font-weight:600}pre{overflow-x:auto;font-size:.85rem;line-height:1.4}
-@media print{body{background:#fff}figure,table{break-inside:avoid}}
-</style>
-)";
-
-std::string element(const std::string& tag, const std::string& inner) {
-  return "<" + tag + ">" + inner + "</" + tag.substr(0, tag.find(' ')) + ">";
-}
-
-std::string fact(const std::string& label, const std::string& value) {
-  return "<div><dt>" + label + "</dt><dd>" + (value.empty() ? std::string(kNoValue) : escaped(value)) +
-         "</dd></div>";
-}
-
 std::string header(const eval::RunSummary& run) {
-  std::string html = element("h1", run.run.empty() ? "Run" : escaped(run.run));
+  std::string html = element("h1", escaped(run.run.empty() ? "Run" : run.run));
   html += "<dl class=\"facts\">";
   html += fact("Log", run.log) + fact("Map", run.map);
   html += fact("Recorded", momentText(run.start)) + fact("Length", durationText(run.end - run.start));
   html += fact("Objects read", grouped(run.log_end.objects)) + fact("Seed", std::to_string(run.seed));
   return html + "</dl>\n";
-}
-
-std::string warningBox(const eval::RunSummary& run) {
-  const std::vector<std::string> all = warnings(run);
-  if (all.empty()) return "";
-  std::string html =
-      "<section class=\"warnings\" role=\"note\"><strong>Before you trust these figures</strong><ul>";
-  for (const std::string& warning : all) html += element("li", escaped(warning));
-  return html + "</ul></section>\n";
 }
 
 std::string alignmentNote(const eval::RunSummary& run) {
@@ -75,49 +30,15 @@ std::string alignmentNote(const eval::RunSummary& run) {
   return run.has_truth ? " Estimates were not aligned with the truth." : "";
 }
 
-/// Bounds in brackets go below their figure, small: the column stays narrow.
-std::string withSecondLine(const std::string& text) {
-  const std::size_t bracket = text.find(" [");
-  if (bracket == std::string::npos) return text;
-  return text.substr(0, bracket) + "<br><small>" + text.substr(bracket + 1) + "</small>";
-}
-
 std::string comparisonSection(const eval::RunSummary& run) {
-  const Comparison table = comparison(run);
-  std::string html = "<h2 id=\"comparison\">Comparison</h2>\n<div class=\"scroll\"><table><thead><tr>";
-  for (const std::string& column : table.columns) html += "<th scope=\"col\">" + escaped(column) + "</th>";
-  html += "</tr></thead><tbody>\n";
-  for (const auto& row : table.rows) {
-    html += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      const std::string text = escaped(row[c].text);
-      if (c == 0) {
-        html += "<th scope=\"row\">" + text + "</th>";
-      } else if (row[c].best) {
-        html += "<td class=\"best\"><span class=\"star\" aria-label=\"best\">\u2605</span> " +
-                withSecondLine(text) + "</td>";
-      } else {
-        html += "<td>" + withSecondLine(text) + "</td>";
-      }
-    }
-    html += "</tr>\n";
-  }
+  std::string html = "<h2 id=\"comparison\">Comparison</h2>\n" + tableHtml(comparison(run));
   html +=
-      "</tbody></table></div>\n<p class=\"note\">\u2605 best of its column. Error = estimate \u2212 truth; "
+      "<p class=\"note\">\u2605 best of its column. Error = estimate \u2212 truth; "
       "xy, "
       "along, cross and yaw columns are rmse where nothing else is said. NEES of an honest estimator is 2, "
       "inside the bounds in brackets. Gated is the share of usable readings that were rejected.";
   const std::string truth_sigma = truthSigmaNote(run);
   return html + alignmentNote(run) + (truth_sigma.empty() ? "" : " " + escaped(truth_sigma)) + "</p>\n";
-}
-
-std::string figureSection(const eval::RunSummary& run) {
-  std::string html = "<h2>Figures</h2>\n";
-  for (const NamedFigure& figure : figures(run)) {
-    html += "<figure id=\"" + escaped(figure.name) + "\">" + figure.svg + "<figcaption>" +
-            escaped(figure.caption) + "</figcaption></figure>\n";
-  }
-  return html;
 }
 
 std::string reasonsText(const eval::Tally& tally) {
@@ -186,18 +107,10 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 }  // namespace
 
 std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
-  html += "<title>" + escaped(run.run.empty() ? "Run" : run.run) + "</title>\n";
-  html += std::string(kStyle) + "</head><body><main>\n";
-  html += header(run) + warningBox(run) + comparisonSection(run) + figureSection(run);
+  std::string html = pageStart(run.run.empty() ? "Run" : run.run);
+  html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + figureSection(figures(run));
   html += verdictSection(run) + diagnosticsSection(run);
-  if (!resolved_config.empty()) {
-    html += "<h2>Configuration</h2>\n<details><summary>Resolved configuration of this run</summary><pre>" +
-            escaped(resolved_config) + "</pre></details>\n";
-  }
-  return html + "</main></body></html>\n";
+  return html + configSection(resolved_config) + pageEnd();
 }
 
 }  // namespace pos::report

@@ -47,7 +47,7 @@ svg.pos{font:13px system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;
 .pos .truth{stroke:var(--muted);stroke-opacity:.4;stroke-width:7;fill:none;stroke-linecap:round}
 .pos .inkline{stroke:var(--ink);stroke-width:2}.pos .inkfill{fill:var(--ink)}
 .pos .band{fill:var(--muted);fill-opacity:.2}.pos .anchor{fill:var(--paper);stroke:var(--ink);stroke-width:2}
-.pos .bar{stroke:var(--paper);stroke-width:1}
+.pos .bar{stroke:var(--paper);stroke-width:1}.pos .box{fill:var(--paper);fill-opacity:.55;stroke-width:1.5}
 .pos .s0{stroke:var(--c0)}.pos .s1{stroke:var(--c1)}.pos .s2{stroke:var(--c2)}.pos .s3{stroke:var(--c3)}
 .pos .s4{stroke:var(--c4)}.pos .s5{stroke:var(--c5)}
 .pos .f0{fill:var(--c0)}.pos .f1{fill:var(--c1)}.pos .f2{fill:var(--c2)}.pos .f3{fill:var(--c3)}

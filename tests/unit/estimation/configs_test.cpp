@@ -35,6 +35,7 @@ TEST(Configs, DefaultsAreValid) {
   EXPECT_EQ(complaintKey(EstimatorConfig{RangeOdometryConfig{}}), "valid");
   EXPECT_EQ(complaintKey(EstimatorConfig{MclConfig{}}), "valid");
   EXPECT_EQ(complaintKey(EstimatorConfig{MrptMclConfig{}}), "valid");
+  EXPECT_EQ(complaintKey(EstimatorConfig{DualUwbConfig{}}), "valid");
 }
 
 TEST(Configs, ValidConfigComesBackUnchanged) {

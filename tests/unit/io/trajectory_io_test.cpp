@@ -126,10 +126,22 @@ TEST(TrajectoryIo, EstimateTableBytesAreAsDocumented) {
       "stamp_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg,sigma_x_m,sigma_y_m,sigma_z_m,sigma_yaw_deg,sigma_"
       "pitch_"
       "deg,sigma_roll_deg,corr_x_y,corr_x_yaw,corr_y_yaw,applied,gated,too_old,unsupported,degenerate,not_"
-      "initialised\n"
+      "initialised,v_forward_m_per_s,v_left_m_per_s,yaw_rate_deg_per_s,"
+      "sigma_v_forward_m_per_s,sigma_v_left_m_per_s,sigma_yaw_rate_deg_per_s\n"
       "2.250000000,1.000000000,2.000000000,0.500000000,90.0000000000,0.0000000000,0.0000000000,2,3,0,0,0,0,0."
       "5,"
-      "0,0,5,4,3,2,1,0\n");
+      "0,0,5,4,3,2,1,0,,,,,,\n");
+}
+
+TEST(EstimateCsv, VelocityStandsInTheLastColumnsWhereItIsKnown) {
+  const ScratchFolder folder;
+  Estimate estimate = planarEstimate(stampFromSeconds(1.0), {}, Matrix<3, 3>::Identity());
+  estimate.twist = PlanarTwist{Vector<3>(0.5, -0.25, kPi), Vector<3>(4.0, 9.0, 0.0).asDiagonal()};
+  EstimateCsvWriter writer(folder.path() / "a.csv");
+  writer.write(estimate, {});
+  writer.close();
+  const std::string text = folder.read("a.csv");
+  EXPECT_TRUE(text.ends_with(",0.5,-0.25,180,2,3,0\n")) << text;
 }
 
 TEST(TrajectoryIo, StraightUpStillReadsBack) {

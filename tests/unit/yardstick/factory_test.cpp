@@ -13,7 +13,8 @@ TEST(Factory, MakesEveryTypeAndNamesIt) {
       {estimation::DeadReckoningConfig{}, "dead_reckoning"},
       {estimation::RangeOdometryConfig{}, "range_odometry"},
       {estimation::MclConfig{}, "mcl"},
-      {estimation::MrptMclConfig{}, "mrpt_mcl"}};
+      {estimation::MrptMclConfig{}, "mrpt_mcl"},
+      {estimation::DualUwbConfig{}, "dual_uwb"}};
   for (const auto& [config, name] : types) {
     EXPECT_EQ(estimation::typeName(config), name);
     EXPECT_NE(makeAnyEstimator(config, map), nullptr);
@@ -30,6 +31,7 @@ TEST(Factory, AMapThatLacksWhatTheTypeNeedsIsRefused) {
   EXPECT_THROW((void)makeAnyEstimator(estimation::RangeOdometryConfig{}, empty), ConfigError);
   EXPECT_THROW((void)makeAnyEstimator(estimation::MclConfig{}, empty), ConfigError);
   EXPECT_THROW((void)makeAnyEstimator(estimation::MrptMclConfig{}, empty), ConfigError);
+  EXPECT_THROW((void)makeAnyEstimator(estimation::DualUwbConfig{}, empty), ConfigError);
 }
 
 }  // namespace pos::yardstick

@@ -2,6 +2,7 @@
 /// Where an estimator believes the vehicle is.
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,21 @@
 
 namespace pos {
 
+/// How the body frame moves over ground, in the map's plane, seen in body axes.
+struct PlanarTwist {
+  /// forward m/s, left m/s, yaw rate rad/s.
+  Vector<3> rates = Vector<3>::Zero();
+  Matrix<3, 3> covariance = Matrix<3, 3>::Zero();
+};
+
 /// A pose with its covariance. Tangent order [x y z (map axes), rotation (body axes)], m and rad.
 /// A planar estimator fills x, y, yaw and leaves the rows of z, roll and pitch at zero.
 struct Estimate {
   Stamp stamp;
   Pose3 T_map_body;
   Matrix<6, 6> covariance = Matrix<6, 6>::Zero();
+  /// Where the estimator knows how fast it moves.
+  std::optional<PlanarTwist> twist = {};
 
   /// Planar part [x, y, yaw]. For a level body the yaw row is the tangent's last.
   Matrix<3, 3> planarCovariance() const;

@@ -164,6 +164,77 @@ struct MrptMclConfig {
   bool operator==(const MrptMclConfig&) const = default;
 };
 
+/// What one link, a tag and an anchor, reads too long (m). Written by `pos calibrate ranges`.
+struct LinkBias {
+  TagId tag = 0;
+  AnchorId anchor = 0;
+  double bias = 0.0;
+
+  bool operator==(const LinkBias&) const = default;
+};
+
+/// How far a tag's electrical place lies from its mount, m, body axes. Written by `pos calibrate ranges`.
+struct TagShift {
+  TagId id = 0;
+  double x = 0.0;
+  double y = 0.0;
+
+  bool operator==(const TagShift&) const = default;
+};
+
+/// Which ranges a filter believes, when it thinks an anchor hidden, and when it thinks itself lost.
+struct SightConfig {
+  double confidence = 0.999;         ///< a range beyond this chi-square quantile is gated
+  int blocked_after = 3;             ///< rejections of one anchor in a row that mark it as hidden
+  double blocked_for = 1.0;          ///< s it stays marked
+  double restart_after = 1.0;        ///< s without agreement after which the filter starts over
+  double agreement_fraction = 0.34;  ///< agreement = at least this share of the anchors heard pass
+
+  bool operator==(const SightConfig&) const = default;
+};
+
+/// A vehicle with two or more tags (docs/math/dual_uwb.md).
+struct DualUwbConfig {
+  enum class Variant {
+    Snapshot,      ///< per epoch: both tags located, heading from the line between them
+    Differential,  ///< the same, summed up from epoch to epoch
+    Rigid,         ///< per epoch: one pose from all ranges of all tags
+    Filter,        ///< Kalman filter on raw ranges, each at its own stamp
+    FilterGyro,    ///< the same, turned by a gyro
+  } variant = Variant::Filter;
+  enum class Motion {
+    Vehicle,  ///< drives where its wheels point: no velocity sideways but that of turning
+    Free,     ///< may slide: the velocity has two components
+  } motion = Motion::Vehicle;
+  StartConfig start{StartMode::Unknown, {}, 0.1, 0.05};
+  double still_at_start = 0.0;            ///< s that the vehicle is known to stand after the first fix
+  std::vector<TagMount> tags;             ///< the tags used; none: all, where the log says they sit
+  double body_height = 0.0;               ///< m, z of the body frame in the map
+  double range_sigma = 0.05;              ///< m
+  double range_offset = 0.0;              ///< m, subtracted from every range
+  CalibrationState link_bias{0, 0, 0};    ///< m, one state for each tag and anchor (filters only)
+  std::string range_bias_table;           ///< file; its content replaces the two lists below
+  std::vector<LinkBias> range_biases;     ///< subtracted from the ranges of one link
+  std::vector<TagShift> tag_shifts;       ///< added to the places of tags
+  double epoch_span = 0.04;               ///< s, ranges within it count as taken at once (not the filters)
+  double acceleration_density = 0.5;      ///< m/s^2 * sqrt(s)
+  double yaw_acceleration_density = 0.2;  ///< rad/s^2 * sqrt(s)
+  double max_speed = 3.0;                 ///< m/s, sets the priors of the velocity
+  double max_yaw_rate = 0.6;              ///< rad/s, sets the prior of the yaw rate
+  double motion_centre_x = 0.0;           ///< m, the body frame lies this far ahead of where it turns about
+  double course_offset = 0.0;             ///< rad, the straight course lies this far left of the body's x
+  double lateral_sigma = 0.0;      ///< m/s, how well a free vehicle keeps to its wheels; 0 = not at all
+  double wheel_speed_sigma = 0.0;  ///< m/s; 0 = wheel speeds are not used
+  double gyro_noise = 0.002;       ///< rad / sqrt(s), angle random walk
+  CalibrationState gyro_bias{0, 0.01, 1e-4};  ///< rad/s
+  bool never_reverses = false;                ///< a pose that drives backwards is wrong
+  SightConfig gate;
+  double fit_significance = 0.001;       ///< share of good fits that are searched for bad ranges all the same
+  std::vector<Eigen::Vector2d> roadway;  ///< corners of the ground the vehicle can be on, m; none: anywhere
+
+  bool operator==(const DualUwbConfig&) const = default;
+};
+
 /// The struct itself when an estimator can be built from it. Throws ConfigError with the key as it is spelt
 /// in configuration files, relative to the struct: signs, and the rules that join several keys.
 StartConfig validated(StartConfig config);
@@ -176,9 +247,11 @@ ScanLikelihood validated(ScanLikelihood config);
 ParticleCount validated(ParticleCount config);
 MclConfig validated(MclConfig config);
 MrptMclConfig validated(MrptMclConfig config);
+SightConfig validated(SightConfig config);
+DualUwbConfig validated(DualUwbConfig config);
 
-using EstimatorConfig =
-    std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig, SinsDrConfig>;
+using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig,
+                                     DualUwbConfig, SinsDrConfig>;
 EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation

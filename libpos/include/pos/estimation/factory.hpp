@@ -10,7 +10,8 @@
 
 namespace pos::estimation {
 
-/// The `type:` of a configuration: "dead_reckoning", "range_odometry", "mcl", "mrpt_mcl", "sins_dr".
+/// The `type:` of a configuration: "dead_reckoning", "range_odometry", "mcl", "mrpt_mcl", "dual_uwb",
+/// "sins_dr".
 std::string_view typeName(const EstimatorConfig& config);
 
 /// A ready estimator. Throws ConfigError when the map lacks what it needs (anchors, grid), and ContractError

@@ -20,6 +20,12 @@ struct Requirement {
   double limit = 0.0;
 };
 
+/// Figures of one estimator by full name, as metrics() gives them.
+struct NamedMetrics {
+  std::string estimator;
+  std::map<std::string, std::optional<double>> values;
+};
+
 /// The outcome for one estimator.
 struct RequirementResult {
   bool passed = false;
@@ -34,8 +40,12 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
 /// or without "errors."), or a short form: "p95_xy", "rmse_yaw", "nees_xy_mean", "real_time_factor".
 /// UsageError, with the nearest name, for a metric or estimator this run does not know.
 Requirement parseRequirement(const std::string& text, const RunSummary& run);
+/// The same for figures from elsewhere.
+Requirement parseRequirement(const std::string& text, const std::vector<NamedMetrics>& estimators);
 
 /// One result per estimator meant. A figure without a value misses the requirement.
 std::vector<RequirementResult> check(const Requirement& requirement, const RunSummary& run);
+std::vector<RequirementResult> check(const Requirement& requirement,
+                                     const std::vector<NamedMetrics>& estimators);
 
 }  // namespace pos::eval

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "pos/eval/relative_error.hpp"
 #include "pos/eval/residuals.hpp"
 #include "pos/eval/statistics.hpp"
+#include "pos/eval/time_grid.hpp"
 #include "pos/eval/verdict_counts.hpp"
 #include "pos/map/tunnel_map.hpp"
 
@@ -69,7 +71,9 @@ struct EstimatorSummary {
   VerdictCounts verdicts;
   std::vector<AnchorResiduals> residuals;
   ComputeStats compute;
-  Diagnostics diagnostics;  ///< at the end of the run
+  Diagnostics diagnostics;                           ///< at the end of the run
+  std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
+  std::vector<GridCell> cells = {};  ///< on the grid of the options; empty without one or without truth
   std::vector<PathPoint> path;
 
   /// xy rmse, or nothing without truth or matches.
@@ -108,6 +112,7 @@ struct EvaluationOptions {
   RelativeErrorOptions relative;
   double truth_sigma = 0.0;        ///< m per axis, the truth's own; enters the NEES only
   std::size_t plot_points = 2000;  ///< most points of one drawn series
+  std::optional<TimeGrid> grid;    ///< also look at the errors at these moments
 };
 
 /// What a run recorded of one estimator.
@@ -119,6 +124,8 @@ struct EstimatorRecord {
   ResidualCollector residuals;
   ComputeStats compute;
   Diagnostics diagnostics;
+  std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
+  std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'

@@ -22,6 +22,14 @@ OptionTable<estimation::DeadReckoningConfig> deadReckoningOptions();
 OptionTable<estimation::RangeOdometryConfig> rangeOdometryOptions();
 OptionTable<estimation::MclConfig> mclOptions();
 OptionTable<estimation::MrptMclConfig> mrptMclOptions();
+OptionTable<estimation::DualUwbConfig> dualUwbOptions();
+OptionTable<estimation::TagMount> tagOptions();
+/// `unit` is the ending of the value's key: "m" for value_m, sigma_m, walk_m_per_sqrt_s; empty for a factor.
+OptionTable<estimation::CalibrationState> calibrationOptions(const std::string& title,
+                                                             const std::string& unit, Range value,
+                                                             double sigma_max);
+OptionTable<estimation::LinkBias> linkBiasOptions();
+OptionTable<estimation::TagShift> tagShiftOptions();
 OptionTable<EstimatorEntry> estimatorOptions();
 
 }  // namespace pos::io

@@ -83,6 +83,14 @@ struct EvaluationConfig {
   bool operator==(const EvaluationConfig&) const = default;
 };
 
+/// How many runs of this configuration are taken together (pos campaign).
+struct CampaignConfig {
+  std::optional<double> step;           ///< s between the moments at which runs are compared; absent: 1 / max_rate
+  std::optional<std::string> baseline;  ///< estimator the others are compared with; absent: the first
+
+  bool operator==(const CampaignConfig&) const = default;
+};
+
 struct RunConfig {
   int schema = 1;
   std::string name;
@@ -96,6 +104,7 @@ struct RunConfig {
   FaultConfig faults;
   std::vector<SensorConfig> sensors;
   EvaluationConfig evaluation;
+  CampaignConfig campaign;
   std::vector<EstimatorEntry> estimators;
 
   bool operator==(const RunConfig&) const = default;

@@ -20,6 +20,9 @@ struct Comparison {
 
 Comparison comparison(const eval::RunSummary& run);
 
+/// Any such table as aligned text; '*' marks the best of a column.
+std::string tableText(const Comparison& table);
+
 /// The comparison as aligned text; '*' marks the best of a column.
 std::string comparisonTable(const eval::RunSummary& run);
 

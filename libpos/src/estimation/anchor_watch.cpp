@@ -1,0 +1,58 @@
+#include "pos/estimation/anchor_watch.hpp"
+
+namespace pos::estimation {
+
+bool AnchorWatch::blocked(int anchor, Stamp stamp) const {
+  const State& state = anchors_[static_cast<std::size_t>(anchor)];
+  return state.blocked_until && stamp < *state.blocked_until;
+}
+
+int AnchorWatch::blockedNow(Stamp stamp) const {
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(anchors_.size()); ++i) count += blocked(i, stamp) ? 1 : 0;
+  return count;
+}
+
+AnchorWatch::Finding AnchorWatch::note(int anchor, Stamp stamp, std::optional<Verdict> tested) {
+  State& state = anchors_[static_cast<std::size_t>(anchor)];
+  state.heard = stamp;
+  Finding finding = Finding::None;
+  if (tested == Verdict::Applied) {
+    state.rejections = 0;
+    state.agrees = true;
+  } else if (tested) {
+    state.agrees = false;
+    if (++state.rejections >= config_.blocked_after) {
+      state.rejections = 0;
+      state.blocked_until = stamp + durationFromSeconds(config_.blocked_for);
+      finding = Finding::Blocked;
+    }
+  }
+  if (state.agrees && !disagreeing_since_) return finding;  // the usual case: nothing to count
+  if (agreement(stamp)) {
+    disagreeing_since_.reset();
+    return finding;
+  }
+  if (!disagreeing_since_) disagreeing_since_ = stamp;
+  return stamp - *disagreeing_since_ >= durationFromSeconds(config_.restart_after) ? Finding::Lost : finding;
+}
+
+/// Of the anchors heard lately, enough agree.
+bool AnchorWatch::agreement(Stamp stamp) const {
+  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
+  int heard = 0;
+  int agreeing = 0;
+  for (const State& state : anchors_) {
+    if (!state.heard || *state.heard < lately) continue;
+    ++heard;
+    agreeing += state.agrees ? 1 : 0;
+  }
+  return agreeing > 0 && agreeing >= config_.agreement_fraction * heard;
+}
+
+void AnchorWatch::forget() {
+  anchors_.assign(anchors_.size(), State{});
+  disagreeing_since_.reset();
+}
+
+}  // namespace pos::estimation

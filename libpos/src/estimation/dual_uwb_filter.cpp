@@ -1,0 +1,297 @@
+#include "pos/estimation/dual_uwb_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pos/core/chi_square.hpp"
+#include "pos/core/error.hpp"
+
+namespace pos::estimation {
+namespace {
+
+constexpr double kOutlierShare = 0.05;
+constexpr double kOutlierDensity = 1.0 / 50.0;  // 1/m, a bad range may be anywhere over tens of metres
+constexpr double kCoursePeriod = 0.1;           // s between two constraints of a free vehicle
+constexpr double kBackwards = 1.0;              // s of driving backwards that raise an alarm
+constexpr double kCrawl = 0.2;                  // m/s, slower than this has no direction
+
+double square(double value) {
+  return value * value;
+}
+
+IngestReport refusal(Verdict verdict, std::string_view reason) {
+  return {.verdict = verdict, .reason = reason};
+}
+
+using Told = filters::Correction<1>;
+
+IngestReport reportOf(const Told& told) {
+  IngestReport report{.verdict = told.verdict, .dof = Told::kDof};
+  report.nis = told.nis;
+  report.innovation = told.nu[0];
+  report.innovation_sigma = std::sqrt(told.S(0, 0));
+  if (told.verdict == Verdict::Gated) report.reason = "reading disagrees with the prediction";
+  if (told.verdict == Verdict::Degenerate) report.reason = "innovation covariance is not positive";
+  return report;
+}
+
+double logLikelihood(const Told& told) {
+  const double S = told.S(0, 0);
+  const double good = (1.0 - kOutlierShare) * std::exp(-0.5 * told.nis) / std::sqrt(2.0 * kPi * S);
+  return std::log(good + kOutlierShare * kOutlierDensity);
+}
+
+}  // namespace
+
+DualUwbFilter::DualUwbFilter(const DualUwbConfig& config, std::shared_ptr<const map::TunnelMap> map)
+    : config_(config),
+      roadway_(config, map),
+      links_(config, *map),
+      layout_(config, links_.anchors()),
+      motion_{&layout_, &config_},
+      gate_{chiSquareQuantile(config.gate.confidence, 1.0)},
+      residual_test_(config.fit_significance),
+      watch_(config.gate, links_.anchors()) {}
+
+void DualUwbFilter::reset(Stamp stamp, const Belief<Pose2>& prior) {
+  bank_ = DualUwbBank({{startBelief(prior), 0.0}});
+  early_.clear();
+  watch_.forget();
+  state_stamp_ = last_stamp_ = stamp;
+  still_until_ = stamp + durationFromSeconds(config_.still_at_start);
+  gyro_stamp_.reset();
+  course_held_.reset();
+  backwards_since_.reset();
+}
+
+IngestReport DualUwbFilter::ingest(const Measurement& measurement) {
+  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
+  if (last_stamp_ && measurement.stamp < *last_stamp_)
+    return refusal(Verdict::TooOld, "older than the state");
+  return std::visit([&](const auto& reading) { return take(measurement.stamp, reading); },
+                    measurement.reading);
+}
+
+IngestReport DualUwbFilter::take(Stamp stamp, const BeaconRange& range) {
+  const UwbLookUp looked_up = links_.find(range);
+  if (looked_up.verdict != Verdict::Applied) return refusal(looked_up.verdict, looked_up.reason);
+  begin(stamp);
+  if (bank_.empty()) return gather(stamp, looked_up.reading);
+  carryTo(stamp);
+  return correctRange(stamp, looked_up.reading);
+}
+
+IngestReport DualUwbFilter::take(Stamp stamp, const ImuSample& imu) {
+  if (!layout_.gyro()) return refusal(Verdict::Unsupported, "variant filter has no use for a gyro");
+  double rate = imu.angular.z();
+  if (imu.kind == ImuSample::Kind::Increments) {
+    const double interval = imu.interval ? seconds(*imu.interval) : 0.0;
+    if (!(interval > 0.0)) return refusal(Verdict::Degenerate, "a turn without the time it took");
+    rate /= interval;
+  }
+  begin(stamp);
+  if (gyro_stamp_ && !bank_.empty()) {
+    // rates are samples of a moment: over the interval their mean; increments hold for all of it
+    const bool increment = imu.kind == ImuSample::Kind::Increments;
+    gyro_rate_ = increment ? rate : 0.5 * (gyro_rate_ + rate);
+    gyro_stamp_ = stamp;
+    carryTo(stamp);
+  }
+  gyro_rate_ = rate;
+  gyro_stamp_ = stamp;
+  if (bank_.empty()) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first pose");
+  return {.verdict = Verdict::Applied};
+}
+
+IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
+  if (config_.wheel_speed_sigma <= 0.0)
+    return refusal(Verdict::Unsupported, "wheel speeds are switched off (wheel_speed_sigma 0)");
+  begin(stamp);
+  if (bank_.empty()) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first pose");
+  carryTo(stamp);
+  const double speed = 0.5 * (wheels.left + wheels.right);
+  const Matrix<1, 1> R(square(config_.wheel_speed_sigma));
+  Told told;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {
+    DualUwbHypothesis& h = bank_.hypotheses()[i];
+    const auto row = wheelInnovation(h.belief.mean, layout_, config_, speed, gyroAt(stamp));
+    const Told c = filters::correct(h.belief, row, R, gate_);
+    h.log_weight += logLikelihood(c);
+    if (i == bank_.bestIndex()) told = c;
+  }
+  settle(stamp);
+  IngestReport report = reportOf(told);
+  if (told.verdict == Verdict::Gated && std::abs(speed) > kCrawl && !alarmed_ &&
+      std::abs(told.nu[0] - 2.0 * speed) < std::abs(speed)) {
+    alarmed_ = true;  // the wheels turn the other way: the vehicle faces where it comes from
+    ++alarms_;
+    report.event = "wheels and ranges disagree about forward: are the tags swapped?";
+  }
+  return report;
+}
+
+/// The last rate with its age. Without one, or with one so old that the true rate may be any, the age at
+/// which the largest yaw rate is within one sigma.
+GyroInput DualUwbFilter::gyroAt(Stamp stamp) const {
+  const double any = square(config_.max_yaw_rate / config_.yaw_acceleration_density);
+  if (!gyro_stamp_) return {0.0, layout_.gyro() ? any : 0.0};
+  return {gyro_rate_, std::clamp(seconds(stamp - *gyro_stamp_), 0.0, any)};
+}
+
+Belief<DualUwbState> DualUwbFilter::carried(Belief<DualUwbState> belief, Stamp stamp) const {
+  const double dt = seconds(stamp - *state_stamp_);
+  if (dt <= 0.0) return belief;
+  const bool standing = still_until_ && stamp <= *still_until_;
+  const double walk = square(config_.link_bias.walk_per_sqrt_s) * dt;
+  predict(belief,
+          standing ? motion_.standing(belief.mean) : motion_.step(belief.mean, gyroAt(*state_stamp_), dt),
+          walk);
+  return belief;
+}
+
+void DualUwbFilter::carryTo(Stamp stamp) {
+  const double dt = seconds(stamp - *state_stamp_);
+  if (dt <= 0.0) return;
+  const bool standing = still_until_ && stamp <= *still_until_;
+  const double walk = square(config_.link_bias.walk_per_sqrt_s) * dt;
+  const GyroInput gyro = gyroAt(*state_stamp_);
+  for (DualUwbHypothesis& h : bank_.hypotheses()) {
+    const DualUwbStep step =
+        standing ? motion_.standing(h.belief.mean) : motion_.step(h.belief.mean, gyro, dt);
+    predict(h.belief, step, walk);
+  }
+  state_stamp_ = stamp;
+  holdCourse(stamp);
+}
+
+/// Free motion: the wheels keep the vehicle from sliding, softly.
+void DualUwbFilter::holdCourse(Stamp stamp) {
+  if (layout_.vehicle() || config_.lateral_sigma <= 0.0) return;
+  if (course_held_ && stamp - *course_held_ < durationFromSeconds(kCoursePeriod)) return;
+  course_held_ = stamp;
+  for (DualUwbHypothesis& h : bank_.hypotheses()) {
+    const auto row = lateralInnovation(h.belief.mean, layout_, config_, gyroAt(stamp));
+    (void)filters::correct(h.belief, row, Matrix<1, 1>(square(config_.lateral_sigma)));
+  }
+}
+
+IngestReport DualUwbFilter::correctRange(Stamp stamp, const UwbReading& reading) {
+  const int anchor = reading.anchor;
+  if (watch_.blocked(anchor, stamp)) {
+    const auto finding = watch_.note(anchor, stamp, std::nullopt);
+    IngestReport report = refusal(Verdict::Gated, "its anchor is taken to be hidden for now");
+    if (finding == AnchorWatch::Finding::Lost) {
+      restart();
+      report.event = "most anchors disagree: starting over from the ranges";
+    }
+    return report;
+  }
+  const Matrix<1, 1> R(square(reading.range.sigma));
+  Told told;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {
+    DualUwbHypothesis& h = bank_.hypotheses()[i];
+    const auto row =
+        rangeInnovation(h.belief.mean, layout_, reading.range, config_.body_height, reading.tag, anchor);
+    const Told c = filters::correct(h.belief, row, R, gate_);
+    if (bank_.size() > 1) h.log_weight += logLikelihood(c);
+    if (i == bank_.bestIndex()) told = c;
+  }
+  IngestReport report = reportOf(told);
+  report.event = alarm(stamp);
+  switch (watch_.note(anchor, stamp, told.verdict)) {
+    case AnchorWatch::Finding::None:
+      break;
+    case AnchorWatch::Finding::Blocked:
+      ++blockings_;
+      report.event = "an anchor is rejected time and again: taken to be hidden";
+      break;
+    case AnchorWatch::Finding::Lost:
+      restart();
+      report.event = "most anchors disagree: starting over from the ranges";
+      return report;
+  }
+  settle(stamp);
+  return report;
+}
+
+/// Drops hypotheses off the roadway while others are on it, and those that drive backwards where that cannot
+/// be.
+void DualUwbFilter::settle(Stamp stamp) {
+  if (bank_.size() > 1) {
+    bank_.keep(
+        [&](const DualUwbHypothesis& h) { return roadway_.inside(h.belief.mean.pose().translation()); });
+    if (config_.never_reverses) bank_.keep([&](const DualUwbHypothesis& h) { return !backwards(h, stamp); });
+  }
+  bank_.settle();
+}
+
+bool DualUwbFilter::backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const {
+  const PlanarTwist twist = twistOf(hypothesis.belief, layout_, config_, gyroAt(stamp));
+  return twist.rates[0] < -kCrawl && twist.rates[0] < -3.0 * std::sqrt(twist.covariance(0, 0));
+}
+
+/// Swapped tags and mirror images turn the vehicle round: it seems to drive backwards for good.
+std::string_view DualUwbFilter::alarm(Stamp stamp) {
+  if (!config_.never_reverses) return {};
+  if (!backwards(bank_.best(), stamp)) {
+    backwards_since_.reset();
+    alarmed_ = false;
+    return {};
+  }
+  if (!backwards_since_) backwards_since_ = stamp;
+  if (alarmed_ || stamp - *backwards_since_ < durationFromSeconds(kBackwards)) return {};
+  alarmed_ = true;
+  ++alarms_;
+  return "drives backwards, which it never does: are the tags swapped?";
+}
+
+std::optional<Estimate> DualUwbFilter::estimateAt(Stamp stamp) const {
+  if (bank_.empty() || stamp < *state_stamp_) return std::nullopt;
+  const Belief<DualUwbState> state = carried(bank_.best().belief, stamp);
+  Matrix<3, 3> covariance = state.covariance.topLeftCorner<3, 3>();
+  if (bank_.size() > 1) {  // the best one's pose with the spread of all of them about it
+    double total = 0.0;
+    for (const DualUwbHypothesis& h : bank_.hypotheses()) total += std::exp(h.log_weight);
+    covariance.setZero();
+    for (const DualUwbHypothesis& h : bank_.hypotheses()) {
+      const Belief<DualUwbState> other = carried(h.belief, stamp);
+      covariance +=
+          spreadAbout(state.mean.pose(), {other.mean.pose(), other.covariance.topLeftCorner<3, 3>()},
+                      std::exp(h.log_weight) / total);
+    }
+  }
+  Estimate estimate = planarEstimate(stamp, state.mean.pose(), covariance, config_.body_height);
+  estimate.twist = twistOf(state, layout_, config_, gyroAt(stamp));
+  return estimate;
+}
+
+Diagnostics DualUwbFilter::diagnostics() const {
+  Diagnostics values{{"hypotheses", static_cast<double>(bank_.size())},
+                     {"restarts", static_cast<double>(restarts_)},
+                     {"anchors_blocked", static_cast<double>(blockings_)},
+                     {"direction_alarms", static_cast<double>(alarms_)}};
+  if (bank_.empty()) return values;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {  // mirror images are told, not averaged
+    if (i == bank_.bestIndex()) continue;
+    const std::string name = "alternative_" + std::to_string(values.size()) + "_";
+    const Belief<DualUwbState>& other = bank_.hypotheses()[i].belief;
+    values.push_back({name + "x_m", other.mean.values[0], std::sqrt(other.covariance(0, 0))});
+    values.push_back({name + "y_m", other.mean.values[1], std::sqrt(other.covariance(1, 1))});
+  }
+  const Belief<DualUwbState>& belief = bank_.best().belief;
+  const auto add = [&](const std::string& name, int row) {
+    values.push_back({name, belief.mean.values[row], std::sqrt(belief.covariance(row, row))});
+  };
+  if (layout_.gyro()) add("gyro_bias_rad_per_s", layout_.rateRow());
+  if (layout_.links() == 0) return values;
+  for (int tag = 0; tag < links_.tags(); ++tag) {
+    for (int anchor = 0; anchor < links_.anchors(); ++anchor) {
+      add("tag_" + std::to_string(links_.tag(tag).id) + "_anchor_" + std::to_string(links_.anchorId(anchor)) +
+              "_bias_m",
+          *layout_.linkRow(tag, anchor));
+    }
+  }
+  return values;
+}
+
+}  // namespace pos::estimation

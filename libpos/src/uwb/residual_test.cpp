@@ -1,0 +1,13 @@
+#include "pos/uwb/residual_test.hpp"
+
+#include "pos/core/chi_square.hpp"
+
+namespace pos::uwb {
+
+ResidualTest::ResidualTest(double significance) {
+  for (std::size_t dof = 1; dof < threshold_.size(); ++dof) {
+    threshold_[dof] = chiSquareQuantile(1.0 - significance, static_cast<double>(dof));
+  }
+}
+
+}  // namespace pos::uwb

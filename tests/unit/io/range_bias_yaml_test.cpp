@@ -1,0 +1,53 @@
+#include "pos/io/range_bias_yaml.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "pos/core/error.hpp"
+#include "scratch_folder.hpp"
+
+namespace pos::io {
+namespace {
+
+RangeBiasTable sampleTable() {
+  RangeBiasTable table;
+  table.source = "log.rawlog";
+  table.links = {{{0, 1, 0.125}, 0.01, 0.07, 260, 3}, {{1, 1, -0.05}, 0.02, 0.06, 250, 0}};
+  table.tag_shifts = {{0, 0.01, -0.02}};
+  table.motion = CalibratedMotion{0.0625, 0.0};
+  return table;
+}
+
+TEST(RangeBiasYaml, ReadsBackWhatItWrites) {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "biases.yaml";
+  std::ofstream(file) << rangeBiasYaml(sampleTable());
+  EXPECT_EQ(loadRangeBiasTable(file), sampleTable());
+}
+
+TEST(RangeBiasYaml, ReplacesWhatTheConfigurationSays) {
+  estimation::DualUwbConfig config;
+  config.range_bias_table = "biases.yaml";
+  config.range_biases = {{7, 7, 7.0}};
+  const estimation::DualUwbConfig with = withTable(config, sampleTable());
+  EXPECT_TRUE(with.range_bias_table.empty());
+  ASSERT_EQ(with.range_biases.size(), 2u);
+  EXPECT_EQ(with.range_biases[1], (estimation::LinkBias{1, 1, -0.05}));
+  EXPECT_EQ(with.tag_shifts.size(), 1u);
+  EXPECT_EQ(with.motion_centre_x, 0.0625);
+  RangeBiasTable still = sampleTable();
+  still.motion.reset();
+  config.motion_centre_x = 0.5;
+  EXPECT_EQ(withTable(config, still).motion_centre_x, 0.5) << "no motion was calibrated";
+}
+
+TEST(RangeBiasYaml, AMistypedKeyIsRefused) {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "biases.yaml";
+  std::ofstream(file) << "schema: 1\nlinks: [{tag: 0, anchor: 1, bias: 0.1}]\n";
+  EXPECT_THROW((void)loadRangeBiasTable(file), ConfigError);
+}
+
+}  // namespace
+}  // namespace pos::io
