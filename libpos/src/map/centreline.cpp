@@ -110,18 +110,31 @@ CentrelineState Centreline::at(double chainage) const {
           .curvature = segment.curvature};
 }
 
+Centreline::Foot Centreline::footOnSegment(std::size_t segment_index, const Eigen::Vector3d& p_map) const {
+  const CentrelineSegment& segment = segments_[segment_index];
+  const SegmentFoot foot = footOn(segment, p_map);
+  Foot result{.chainage = segment.chainage + foot.u * segment.length / segment.plan_length,
+              .offset = foot.offset,
+              .height = foot.height,
+              .beyond = foot.beyond};
+  const bool at_open_end =
+      foot.u == 0.0 ? segment_index == 0 : segment_index + 1 == segments_.size();  // else at a kink
+  if (foot.beyond > 0.0 && !at_open_end) {
+    result.offset = std::copysign(std::hypot(foot.offset, foot.beyond), foot.offset);
+    result.beyond = 0.0;
+  }
+  return result;
+}
+
 Centreline::Foot Centreline::foot(const Eigen::Vector3d& p_map) const {
   Foot best;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const CentrelineSegment& segment : segments_) {
-    const SegmentFoot foot = footOn(segment, p_map);
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const Foot foot = footOnSegment(i, p_map);
     const double distance = std::hypot(foot.offset, foot.beyond);
     if (distance >= nearest) continue;
     nearest = distance;
-    best = {.chainage = segment.chainage + foot.u * segment.length / segment.plan_length,
-            .offset = foot.offset,
-            .height = foot.height,
-            .beyond = foot.beyond};
+    best = foot;
   }
   return best;
 }
