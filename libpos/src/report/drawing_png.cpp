@@ -92,7 +92,7 @@ class Painter {
   }
   void operator()(const DrawnText& shape) {
     const std::string text = asciiOnly(shape.text);
-    const double font = fontScale(shape.size) * scale_;
+    const double font = fontOf(shape, text);
     const int pen =
         std::max(1, static_cast<int>(std::lround(shape.size * scale_ * (shape.bold ? 0.13 : 0.085))));
     const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, font, pen, nullptr);
@@ -141,6 +141,13 @@ class Painter {
     out.reserve(points.size());
     for (const Pixel& p : points) out.push_back(fixedPoint(p));
     return out;
+  }
+  /// As large as asked for, but no wider than the SVG's letters.
+  double fontOf(const DrawnText& shape, const std::string& text) const {
+    const double font = fontScale(shape.size) * scale_;
+    const double width = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, font, 1, nullptr).width;
+    const double wanted = textWidth(text, shape.size, shape.bold) * scale_;
+    return width > wanted ? font * wanted / width : font;
   }
   int thickness(const Paint& paint) const {
     return std::max(1, static_cast<int>(std::lround(paint.stroke_width * scale_)));

@@ -177,7 +177,8 @@ double roundStep(double least) {
   return 10.0 * power;
 }
 
-/// Ticks stand on the right wall (seen along growing chainage) and point outwards.
+/// Ticks stand on the right wall (seen along growing chainage) and point outwards, but not into another
+/// roadway or a chamber.
 void drawTicks(Sheet& sheet, map::RoadwayIndex i) {
   const map::Centreline& line = sheet.centrelines[i];
   const double major = roundStep(std::max(80.0 * sheet.metres_per_pixel, 1.0));
@@ -190,6 +191,8 @@ void drawTicks(Sheet& sheet, map::RoadwayIndex i) {
     const Sheet::Spot s = sheet.spot(i, chainage, -half);
     const Pixel out = opposite(s.left);
     const Pixel tip = moved(s.at, out, labelled ? 8.0 : 4.0);
+    const Pixel beyond = moved(s.at, out, 9.0);
+    if (!sheet.room().fits({beyond.x - 1.0, beyond.y - 1.0, 2.0, 2.0}, Room::Mark::Free)) continue;
     sheet.drawing.add(DrawnLine{{s.at, tip}, {.stroke = "#4a5663", .stroke_width = labelled ? 1.3 : 0.8}});
     if (!labelled) continue;
     sheet.room().markLine({s.at, tip}, 2.0, Room::Mark::Hard);
@@ -197,7 +200,7 @@ void drawTicks(Sheet& sheet, map::RoadwayIndex i) {
                  .outward = out,
                  .distance = 2.0,
                  .text = tickText(chainage == 0.0 ? 0.0 : chainage),
-                 .size = 9.5,
+                 .size = 10.0,
                  .colour = "#4a5663"});
   }
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kInk = "#1c2530";
 constexpr const char* kMuted = "#5b6876";
-constexpr double kEntry = 190.0;       // px a column of the legend
+constexpr double kEntry = 200.0;       // px a column of the legend
 constexpr double kRow = 24.0;          // px a row
 constexpr double kRightBlock = 330.0;  // px for scale bar and north arrow
 
@@ -77,7 +77,7 @@ void addPlaceEntries(std::vector<Entry>& entries, const map::TunnelMap& map) {
                        }});
   }
   if (!map.portals.empty()) {
-    entries.push_back({"portal, GNSS hand-over", [](Drawing& d, Pixel p) {
+    entries.push_back({"portal, GNSS zone", [](Drawing& d, Pixel p) {
                          d.add(DrawnLine{{{p.x - 10.0, p.y - 8.0}, {p.x - 10.0, p.y + 8.0}},
                                          {.stroke = "#0b8f8f", .stroke_width = 4.0}});
                          d.add(DrawnLine{{{p.x - 6.0, p.y}, {p.x + 15.0, p.y}},
@@ -135,14 +135,14 @@ std::size_t columnsOf(double width) {
   return static_cast<std::size_t>(std::max(1.0, std::floor((width - kRightBlock) / kEntry)));
 }
 
-void drawLegend(Sheet& sheet, double top) {
+void drawLegend(Drawing& drawing, const Sheet& sheet, double width, double top) {
   const auto entries = legendEntries(sheet.map, sheet.options);
-  const std::size_t columns = columnsOf(sheet.frame.width);
+  const std::size_t columns = columnsOf(width);
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    const Pixel at{sheet.frame.left + 20.0 + kEntry * static_cast<double>(k % columns),
+    const Pixel at{20.0 + kEntry * static_cast<double>(k % columns),
                    top + kRow * (static_cast<double>(k / columns) + 0.5)};
-    entries[k].sign(sheet.drawing, at);
-    sheet.drawing.add(
+    entries[k].sign(drawing, at);
+    drawing.add(
         DrawnText{.at = {at.x + 24.0, at.y + 4.5}, .text = entries[k].text, .size = 12.5, .colour = kInk});
   }
 }
@@ -158,22 +158,20 @@ North northOf(const map::TunnelMap& map) {
   return {};
 }
 
-void drawNorth(Sheet& sheet, Pixel centre) {
-  const North north = northOf(sheet.map);
+void drawNorth(Drawing& drawing, const North& north, Pixel centre) {
   const Pixel up{std::cos(north.angle), -std::sin(north.angle)};
   const Pixel side{-up.y, up.x};
   const auto at = [&](double along, double across) {
     return Pixel{centre.x + along * up.x + across * side.x, centre.y + along * up.y + across * side.y};
   };
-  sheet.drawing.add(
-      DrawnPolygon{{at(20.0, 0.0), at(-12.0, 8.0), at(-6.0, 0.0)}, {.fill = kInk, .stroke = kInk}});
-  sheet.drawing.add(
+  drawing.add(DrawnPolygon{{at(20.0, 0.0), at(-12.0, 8.0), at(-6.0, 0.0)}, {.fill = kInk, .stroke = kInk}});
+  drawing.add(
       DrawnPolygon{{at(20.0, 0.0), at(-12.0, -8.0), at(-6.0, 0.0)}, {.fill = "#ffffff", .stroke = kInk}});
-  sheet.drawing.add(DrawnText{.at = {centre.x, centre.y + 34.0},
-                              .text = north.label,
-                              .size = 12.5,
-                              .anchor = TextAnchor::Middle,
-                              .bold = true});
+  drawing.add(DrawnText{.at = {centre.x, centre.y + 34.0},
+                        .text = north.label,
+                        .size = 12.5,
+                        .anchor = TextAnchor::Middle,
+                        .bold = true});
 }
 
 double roundLength(double most) {
@@ -184,20 +182,20 @@ double roundLength(double most) {
   return power;
 }
 
-void drawScaleBar(Sheet& sheet, Pixel left) {
-  const double length = roundLength(220.0 * sheet.metres_per_pixel);
-  const double pixels = length / sheet.metres_per_pixel;
+void drawScaleBar(Drawing& drawing, Pixel left, double metres_per_pixel) {
+  const double length = roundLength(220.0 * metres_per_pixel);
+  const double pixels = length / metres_per_pixel;
   for (int k = 0; k < 4; ++k) {
     const double x = left.x + 0.25 * pixels * k;
-    sheet.drawing.add(DrawnPolygon{
+    drawing.add(DrawnPolygon{
         {{x, left.y}, {x + 0.25 * pixels, left.y}, {x + 0.25 * pixels, left.y + 6.0}, {x, left.y + 6.0}},
         {.fill = k % 2 == 0 ? kInk : "#ffffff", .stroke = kInk, .stroke_width = 1.0}});
   }
   for (const double f : {0.0, 0.5, 1.0}) {
-    sheet.drawing.add(DrawnText{.at = {left.x + f * pixels, left.y - 5.0},
-                                .text = tickText(f * length) + (f == 1.0 ? " m" : ""),
-                                .size = 12.0,
-                                .anchor = TextAnchor::Middle});
+    drawing.add(DrawnText{.at = {left.x + f * pixels, left.y - 5.0},
+                          .text = tickText(f * length) + (f == 1.0 ? " m" : ""),
+                          .size = 12.0,
+                          .anchor = TextAnchor::Middle});
   }
 }
 
@@ -239,27 +237,64 @@ std::string remarks(const Sheet& sheet) {
   return text;
 }
 
+struct Scaling {
+  Pixel origin;
+  double factor;
+
+  Pixel operator()(const Pixel& p) const { return {origin.x + factor * p.x, origin.y + factor * p.y}; }
+  void scale(std::vector<Pixel>& points, Paint& paint) const {
+    for (Pixel& p : points) p = (*this)(p);
+    paint.stroke_width *= factor;
+    for (double& length : paint.dash) length *= factor;
+  }
+};
+
+/// A part drawn around its own origin, enlarged.
+void addScaled(Drawing& drawing, Drawing part, Pixel origin, double factor) {
+  const Scaling scaling{origin, factor};
+  for (Shape& shape : part.shapes) {
+    if (auto* polygon = std::get_if<DrawnPolygon>(&shape)) scaling.scale(polygon->points, polygon->paint);
+    if (auto* line = std::get_if<DrawnLine>(&shape)) scaling.scale(line->points, line->paint);
+    if (auto* circle = std::get_if<DrawnCircle>(&shape)) {
+      circle->centre = scaling(circle->centre);
+      circle->radius *= factor;
+      circle->paint.stroke_width *= factor;
+    }
+    if (auto* text = std::get_if<DrawnText>(&shape)) {
+      text->at = scaling(text->at);
+      text->size *= factor;
+    }
+    drawing.add(std::move(shape));
+  }
+}
+
 }  // namespace
 
+double titleHeight(double width) {
+  return 64.0 * Sheet::marginScale(width);
+}
+
 double legendHeight(const map::TunnelMap& map, const PlanOptions& options, double width) {
-  const std::size_t columns = columnsOf(width);
+  const double scale = Sheet::marginScale(width);
+  const std::size_t columns = columnsOf(width / scale);
   const std::size_t rows = (legendEntries(map, options).size() + columns - 1) / columns;
-  return std::max(78.0, kRow * static_cast<double>(rows) + 22.0);
+  return scale * (std::max(78.0, kRow * static_cast<double>(rows) + 22.0) + 44.0);
 }
 
 void drawFrame(Sheet& sheet) {
   const Box& frame = sheet.frame;
   const Eigen::Vector2d low = sheet.mapPoint({frame.left, frame.bottom()});
   const Eigen::Vector2d high = sheet.mapPoint({frame.right(), frame.top});
-  const double step = 2.0 * roundLength(90.0 * sheet.metres_per_pixel);
+  const double scale = sheet.marginScale();
+  const double step = 2.0 * roundLength(90.0 * scale * sheet.metres_per_pixel);
   for (double x = step * std::ceil(low.x() / step); x <= high.x(); x += step) {
     const double px = sheet.pixel({x, 0.0}).x;
     sheet.drawing.add(
         DrawnLine{{{px, frame.top}, {px, frame.bottom()}}, {.stroke = "#e6eaee", .stroke_width = 1.0}});
     if (px < frame.left + 16.0 || px > frame.right() - 16.0) continue;
-    sheet.drawing.add(DrawnText{.at = {px, frame.bottom() + 15.0},
+    sheet.drawing.add(DrawnText{.at = {px, frame.bottom() + 15.0 * scale},
                                 .text = fixed(x, step < 1.0 ? 1 : 0),
-                                .size = 11.0,
+                                .size = 11.0 * scale,
                                 .colour = kMuted,
                                 .anchor = TextAnchor::Middle});
   }
@@ -269,9 +304,13 @@ void drawFrame(Sheet& sheet) {
         DrawnLine{{{frame.left, py}, {frame.right(), py}}, {.stroke = "#e6eaee", .stroke_width = 1.0}});
     if (py < frame.top + 12.0 || py > frame.bottom() - 6.0) continue;
     const std::string text = fixed(y, step < 1.0 ? 1 : 0);
-    sheet.drawing.add(DrawnText{
-        .at = {frame.left + 4.0, py - 3.0}, .text = text, .size = 11.0, .colour = kMuted, .halo = "#ffffff"});
-    sheet.room().mark({frame.left, py - 14.0, textWidth(text, 11.0) + 6.0, 14.0}, Room::Mark::Hard);
+    sheet.drawing.add(DrawnText{.at = {frame.left + 4.0, py - 3.0},
+                                .text = text,
+                                .size = 11.0 * scale,
+                                .colour = kMuted,
+                                .halo = "#ffffff"});
+    sheet.room().mark({frame.left, py - 14.0 * scale, textWidth(text, 11.0 * scale) + 6.0, 14.0 * scale},
+                      Room::Mark::Hard);
   }
 }
 
@@ -282,18 +321,23 @@ void drawMargins(Sheet& sheet) {
                                   {frame.right(), frame.bottom()},
                                   {frame.left, frame.bottom()}},
                                  {.stroke = "#8b97a4", .stroke_width = 1.2}});
-  sheet.drawing.add(DrawnText{
-      .at = {frame.left, 34.0}, .text = sheet.drawing.title, .size = 22.0, .colour = kInk, .bold = true});
-  sheet.drawing.add(
-      DrawnText{.at = {frame.left, 54.0}, .text = subtitle(sheet), .size = 12.5, .colour = kMuted});
-  const double top = frame.bottom() + 26.0;
-  drawLegend(sheet, top);
-  drawScaleBar(sheet, {frame.right() - 300.0, top + 22.0});
-  drawNorth(sheet, {frame.right() - 28.0, top + 24.0});
-  sheet.drawing.add(DrawnText{.at = {frame.left, sheet.drawing.height - 12.0},
-                              .text = remarks(sheet),
-                              .size = 11.5,
-                              .colour = kMuted});
+  const double scale = sheet.marginScale();
+  const double width = frame.width / scale;
+  Drawing title;
+  title.add(
+      DrawnText{.at = {0.0, 34.0}, .text = sheet.drawing.title, .size = 22.0, .colour = kInk, .bold = true});
+  title.add(DrawnText{.at = {0.0, 54.0}, .text = subtitle(sheet), .size = 12.5, .colour = kMuted});
+  Drawing below;
+  const double top = 26.0;
+  drawLegend(below, sheet, width, top);
+  drawScaleBar(below, {width - 300.0, top + 22.0}, sheet.metres_per_pixel * scale);
+  drawNorth(below, northOf(sheet.map), {width - 28.0, top + 24.0});
+  below.add(DrawnText{.at = {0.0, legendHeight(sheet.map, sheet.options, frame.width) / scale - 12.0},
+                      .text = remarks(sheet),
+                      .size = 11.5,
+                      .colour = kMuted});
+  addScaled(sheet.drawing, std::move(title), {frame.left, 0.0}, scale);
+  addScaled(sheet.drawing, std::move(below), {frame.left, frame.bottom()}, scale);
 }
 
 }  // namespace pos::report::plan

@@ -63,6 +63,9 @@ class Sheet {
   Pixel pixel(const Eigen::Vector2d& p_map) const;
   Eigen::Vector2d mapPoint(const Pixel& p) const;
   std::vector<Pixel> pixels(const map::PlanLine& line) const;
+  /// Letters and signs in the margins grow with the sheet, so that a large one can be read from afar.
+  double marginScale() const { return marginScale(frame.width); }
+  static double marginScale(double frame_width);
   double tolerance() const { return 0.2 * metres_per_pixel; }  ///< m, of curves drawn as lines
   /// Half the width a roadway is drawn with, m.
   double halfWidth(map::RoadwayIndex roadway) const;
@@ -99,7 +102,8 @@ void drawChainage(Sheet& sheet);
 void drawFrame(Sheet& sheet);
 /// Title above, legend, north arrow and scale bar below.
 void drawMargins(Sheet& sheet);
-/// Height of what drawMargins puts below the frame, px.
+/// Height of what drawMargins puts above and below the frame, px.
+double titleHeight(double width);
 double legendHeight(const map::TunnelMap& map, const PlanOptions& options, double width);
 
 /// Strips of intervals on one stretch of a roadway; `from` and `to` cut them off.

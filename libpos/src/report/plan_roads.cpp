@@ -24,34 +24,21 @@ struct Piece {
   std::size_t slots = 1;
 };
 
-/// All spans on a roadway's lane, each with a place of its own where they overlap.
-std::vector<Piece> arranged(std::vector<Piece> pieces) {
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.from < b.from; });
-  constexpr double kTouch = 0.5;  // m, of overlap that does not count
-  std::size_t first = 0;
-  std::vector<double> ends;  // of each slot in the cluster
-  double cluster_end = -1e300;
-  const auto close = [&](std::size_t past) {
-    for (std::size_t i = first; i < past; ++i) pieces[i].slots = std::max<std::size_t>(1, ends.size());
-  };
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].from > cluster_end - kTouch) {
-      close(i);
-      first = i;
-      ends.clear();
+/// The spans of one lane cut where another begins or ends; those that overlap get places side by side.
+std::vector<Piece> arranged(const std::vector<Piece>& spans) {
+  std::vector<double> cuts;
+  for (const Piece& span : spans) cuts.insert(cuts.end(), {span.from, span.to});
+  std::sort(cuts.begin(), cuts.end());
+  std::vector<Piece> pieces;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+    if (cuts[k + 1] - cuts[k] < 1e-6) continue;
+    const std::size_t first = pieces.size();
+    for (const Piece& span : spans) {
+      if (span.from > cuts[k] + 1e-9 || span.to < cuts[k + 1] - 1e-9) continue;
+      pieces.push_back({span.interval, cuts[k], cuts[k + 1], span.lane, pieces.size() - first, 1});
     }
-    const auto free =
-        std::find_if(ends.begin(), ends.end(), [&](double end) { return end - kTouch <= pieces[i].from; });
-    pieces[i].slot = static_cast<std::size_t>(free - ends.begin());
-    if (free == ends.end()) {
-      ends.push_back(pieces[i].to);
-    } else {
-      *free = pieces[i].to;
-    }
-    cluster_end = std::max(cluster_end, pieces[i].to);
+    for (std::size_t i = first; i < pieces.size(); ++i) pieces[i].slots = pieces.size() - first;
   }
-  close(pieces.size());
   return pieces;
 }
 
@@ -66,7 +53,7 @@ std::vector<Piece> piecesOn(const Sheet& sheet, map::RoadwayIndex roadway) {
   }
   std::vector<Piece> all;
   for (auto& lane : lanes) {
-    const auto pieces = arranged(std::move(lane));
+    const auto pieces = arranged(lane);
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
   return all;
@@ -142,6 +129,39 @@ void nameRoadway(Sheet& sheet, map::RoadwayIndex i) {
   sheet.label({.at = s.at, .outward = s.left, .distance = 20.0, .text = text, .size = 14.0, .bold = true});
 }
 
+/// For each interval whose longest span is on this roadway, the longest piece of it.
+std::vector<Piece> labelPieces(const Sheet& sheet, map::RoadwayIndex roadway) {
+  std::vector<Piece> longest;
+  for (const Piece& piece : piecesOn(sheet, roadway)) {
+    const auto& spans = sheet.options.intervals[piece.interval].spans;
+    const auto main = std::max_element(spans.begin(), spans.end(),
+                                       [](const auto& a, const auto& b) { return a.length() < b.length(); });
+    if (main->roadway != roadway) continue;
+    const auto same = std::find_if(longest.begin(), longest.end(),
+                                   [&](const Piece& p) { return p.interval == piece.interval; });
+    if (same == longest.end()) {
+      longest.push_back(piece);
+    } else if (piece.to - piece.from > same->to - same->from) {
+      *same = piece;
+    }
+  }
+  return longest;
+}
+
+void labelInterval(Sheet& sheet, map::RoadwayIndex roadway, const Piece& piece) {
+  const Offsets offsets = offsetsOf(sheet, roadway, piece);
+  const Sheet::Spot s =
+      sheet.spot(roadway, 0.5 * (piece.from + piece.to), 0.5 * (offsets.left + offsets.right));
+  const bool left = offsets.left + offsets.right > 0.0;
+  sheet.label({.at = s.at,
+               .outward = left ? s.left : Pixel{-s.left.x, -s.left.y},
+               .distance = sheet.halfWidth(roadway) / sheet.metres_per_pixel + 5.0,
+               .text = sheet.options.intervals[piece.interval].label(),
+               .size = 11.0,
+               .colour = "#223344",
+               .inside = (offsets.left - offsets.right) / sheet.metres_per_pixel > 13.0});
+}
+
 }  // namespace
 
 Colour intervalColour(std::size_t interval) {
@@ -149,7 +169,7 @@ Colour intervalColour(std::size_t interval) {
 }
 
 void drawIntervalStrips(Sheet& sheet, map::RoadwayIndex roadway, double from, double to) {
-  const double gap = 0.8 * sheet.metres_per_pixel;
+  const double gap = 0.5 * sheet.metres_per_pixel;
   for (const Piece& piece : piecesOn(sheet, roadway)) {
     const double low = std::max(piece.from + gap, from);
     const double high = std::min(piece.to - gap, to);
@@ -188,26 +208,7 @@ void drawIntervals(Sheet& sheet) {
     drawIntervalStrips(sheet, i, start, end);
     drawLaneLine(sheet, i, start, end);
     drawOneWay(sheet, i);
-    for (const Piece& piece : piecesOn(sheet, i)) {
-      const map::LockInterval& interval = sheet.options.intervals[piece.interval];
-      const auto longest = std::max_element(
-          interval.spans.begin(), interval.spans.end(),
-          [](const map::IntervalSpan& a, const map::IntervalSpan& b) { return a.length() < b.length(); });
-      const bool here = longest->roadway == i && std::min(longest->from, longest->to) == piece.from;
-      if (!here) continue;
-      const Offsets offsets = offsetsOf(sheet, i, piece);
-      const Sheet::Spot s =
-          sheet.spot(i, 0.5 * (piece.from + piece.to), 0.5 * (offsets.left + offsets.right));
-      const bool roomy = (offsets.left - offsets.right) / sheet.metres_per_pixel > 13.0;
-      const double away = sheet.halfWidth(i) / sheet.metres_per_pixel;
-      sheet.label({.at = s.at,
-                   .outward = offsets.left + offsets.right > 0.0 ? s.left : Pixel{-s.left.x, -s.left.y},
-                   .distance = away + 5.0,
-                   .text = interval.label(),
-                   .size = 11.0,
-                   .colour = "#234",
-                   .inside = roomy});
-    }
+    for (const Piece& piece : labelPieces(sheet, i)) labelInterval(sheet, i, piece);
   }
 }
 

@@ -9,7 +9,6 @@ namespace pos::report::plan {
 namespace {
 
 constexpr double kMargin = 30.0;       // px around the frame
-constexpr double kTitle = 64.0;        // px above the frame
 constexpr double kMostFrame = 3540.0;  // px
 constexpr double kLeastFrame = 940.0;
 
@@ -142,18 +141,22 @@ Sheet::Sheet(const map::TunnelMap& drawn, const PlanOptions& wanted) : map(drawn
   metres_per_pixel = chosenScale(map, size, asked);
   // Room for labels outside the outermost roadways is counted in pixels.
   const double inner = std::max(size.x() / metres_per_pixel, 0.0) + 90.0;
-  frame = {kMargin, kTitle, std::max(inner, kLeastFrame),
-           std::max(size.y() / metres_per_pixel + 110.0, 220.0)};
+  frame = {kMargin, 0.0, std::max(inner, kLeastFrame), std::max(size.y() / metres_per_pixel + 110.0, 220.0)};
   if (options.width > 0.0) frame.width = options.width - 2.0 * kMargin;
+  frame.top = titleHeight(frame.width);
   const Eigen::Vector2d middle = 0.5 * (extent.low + extent.high);
   scale_x_ = middle.x() - 0.5 * frame.width * metres_per_pixel;
   scale_y_ = middle.y() + 0.5 * frame.height * metres_per_pixel;
   drawing.width = frame.right() + kMargin;
-  drawing.height = frame.bottom() + 26.0 + legendHeight(map, options, frame.width) + kMargin;
+  drawing.height = frame.bottom() + legendHeight(map, options, frame.width);
   drawing.title = map.name.empty() ? "Plan of the mine" : "Plan of " + map.name;
   drawing.description = "Roadways, chambers and anchors seen from above, north up";
   room_ = Room(drawing.width, drawing.height);
   room_.limitTo({frame.left + 3.0, frame.top + 3.0, frame.width - 6.0, frame.height - 6.0});
+}
+
+double Sheet::marginScale(double frame_width) {
+  return std::clamp(frame_width / 1400.0, 1.0, 2.0);
 }
 
 Pixel Sheet::pixel(const Eigen::Vector2d& p_map) const {
