@@ -166,8 +166,12 @@ map::Roadway& roadwayOf(std::vector<map::Roadway>& roadways, const std::string& 
   return roadways.back();
 }
 
-std::size_t readStations(const TableMapImport& mapping, const std::filesystem::path& folder,
-                         map::TunnelMap& map) {
+struct Stations {
+  std::vector<map::Roadway> roadways;
+  std::size_t rows = 0;
+};
+
+Stations stationsOf(const TableMapImport& mapping, const std::filesystem::path& folder) {
   const StationTable& table = *mapping.stations;
   CsvReader csv(folder / table.file);
   const std::size_t id_column = csv.column(table.roadway);
@@ -176,11 +180,11 @@ std::size_t readStations(const TableMapImport& mapping, const std::filesystem::p
   const OptionalCell arc(csv, table.arc, Quantity::Angle);
   const OptionalCell width(csv, table.width, Quantity::Length);
   const OptionalCell height(csv, table.height, Quantity::Length);
-  std::size_t rows = 0;
-  for (; csv.next(); ++rows) {
+  Stations read;
+  for (; csv.next(); ++read.rows) {
     const std::string id(csv.cell(id_column));
     if (id.empty()) csv.refuse(id_column, "a station without roadway", "the id of its roadway");
-    map::Roadway& roadway = roadwayOf(map.roadways, id);
+    map::Roadway& roadway = roadwayOf(read.roadways, id);
     if (roadway.centreline.empty()) {
       roadway.width = width().value_or(roadway.width);
       roadway.height = height().value_or(roadway.height);
@@ -188,10 +192,11 @@ std::size_t readStations(const TableMapImport& mapping, const std::filesystem::p
     }
     roadway.centreline.push_back({.p_map = point(), .arc = arc().value_or(0.0), .station = station()});
   }
-  return rows;
+  return read;
 }
 
-void readAnchors(const TableMapImport& mapping, const std::filesystem::path& folder, map::TunnelMap& map) {
+std::vector<map::Anchor> anchorsOf(const TableMapImport& mapping, const std::filesystem::path& folder) {
+  std::vector<map::Anchor> anchors;
   const AnchorTable& table = *mapping.anchors;
   CsvReader csv(folder / table.file);
   const std::size_t id_column = csv.column(table.id);
@@ -213,8 +218,9 @@ void readAnchors(const TableMapImport& mapping, const std::filesystem::path& fol
     anchor.survey_sigma = sigma().value_or(0.0);
     anchor.range_bias = bias().value_or(0.0);
     anchor.survey_date = textOf(table.survey_date);
-    map.anchors.push_back(std::move(anchor));
+    anchors.push_back(std::move(anchor));
   }
+  return anchors;
 }
 
 std::vector<Eigen::Vector3d> pointsOf(const map::TunnelMap& map) {
@@ -240,8 +246,12 @@ TableMap mapFromTables(const TableMapImport& mapping, const std::filesystem::pat
   TableMap result;
   result.map.name = mapping.name;
   result.map.mine_grid = mapping.mine_grid;
-  if (mapping.stations) result.stations = readStations(mapping, data_dir, result.map);
-  if (mapping.anchors) readAnchors(mapping, data_dir, result.map);
+  if (mapping.stations) {
+    Stations stations = stationsOf(mapping, data_dir);
+    result.map.roadways = std::move(stations.roadways);
+    result.stations = stations.rows;
+  }
+  if (mapping.anchors) result.map.anchors = anchorsOf(mapping, data_dir);
   requireLocal(pointsOf(result.map), mapping.stations ? mapping.stations->file : mapping.anchors->file);
   result.map = map::validated(std::move(result.map));
   result.map.junctions = junctionsFound(result.map.roadways, mapping.junction_reach);

@@ -63,6 +63,24 @@ std::vector<std::vector<Pixel>> dashed(const std::vector<Pixel>& line, const std
   return parts;
 }
 
+/// In three colours, with white where the picture is transparent.
+cv::Mat onWhite(cv::Mat image) {
+  if (image.empty()) return image;
+  if (image.depth() != CV_8U) image.convertTo(image, CV_8U, 1.0 / 257.0);
+  if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
+  if (image.channels() != 4) return image;
+  cv::Mat opaque(image.size(), CV_8UC3);
+  for (int row = 0; row < image.rows; ++row) {
+    for (int column = 0; column < image.cols; ++column) {
+      const auto& from = image.at<cv::Vec4b>(row, column);
+      for (int k = 0; k < 3; ++k)
+        opaque.at<cv::Vec3b>(row, column)[k] =
+            static_cast<std::uint8_t>((from[k] * from[3] + 255 * (255 - from[3]) + 127) / 255);
+    }
+  }
+  return opaque;
+}
+
 class Painter {
  public:
   Painter(cv::Mat& canvas, double scale) : canvas_(canvas), scale_(scale) {}
@@ -109,7 +127,7 @@ class Painter {
   }
   void operator()(const DrawnImage& shape) {
     const std::vector<unsigned char> bytes(shape.bytes.begin(), shape.bytes.end());
-    const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_COLOR);
+    const cv::Mat image = onWhite(cv::imdecode(bytes, cv::IMREAD_UNCHANGED));
     if (image.empty()) {
       throw DataError(
           Complaint{.what = "a picture of the drawing cannot be decoded", .expected = "PNG or JPEG"});

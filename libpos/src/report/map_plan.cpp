@@ -1,9 +1,32 @@
 #include "pos/report/map_plan.hpp"
 
 #include "plan_parts.hpp"
+#include "pos/report/png.hpp"
 
 namespace pos::report {
 namespace {
+
+/// The cells of a map without roadways; beside roadways they would say the same twice.
+void drawGrid(plan::Sheet& sheet) {
+  if (!sheet.map.grid || !sheet.map.roadways.empty()) return;
+  const map::OccupancyGrid& grid = *sheet.map.grid;
+  const GridPicture drawn = gridPicture(grid, 2000);
+  const double y_top = grid.y_min + grid.resolution * grid.rows;
+  const double step = grid.resolution * drawn.step;
+  const auto at = [&](double x, double y) {
+    return sheet.pixel(grid.T_map_grid * Eigen::Vector2d(grid.x_min + x, y_top - y));
+  };
+  const Pixel origin = at(0.0, 0.0);
+  const Pixel u = at(step, 0.0);
+  const Pixel v = at(0.0, step);
+  sheet.drawing.add(DrawnImage{.bytes = pngBytes(drawn.picture),
+                               .columns = drawn.picture.columns,
+                               .rows = drawn.picture.rows,
+                               .origin = origin,
+                               .along_u = {u.x - origin.x, u.y - origin.y},
+                               .along_v = {v.x - origin.x, v.y - origin.y},
+                               .clip = sheet.frame});
+}
 
 void drawBackground(plan::Sheet& sheet) {
   if (!sheet.options.background) return;
@@ -28,6 +51,7 @@ void drawBackground(plan::Sheet& sheet) {
 MapPlan mapPlan(const map::TunnelMap& map, const PlanOptions& options) {
   plan::Sheet sheet(map, options);
   drawBackground(sheet);
+  drawGrid(sheet);
   plan::drawFrame(sheet);
   plan::drawRoadways(sheet);
   plan::drawIntervals(sheet);

@@ -32,6 +32,13 @@ Extent extentOf(const map::TunnelMap& map, const std::vector<map::Centreline>& c
       extent.add(p);
   }
   const bool anchors_only = map.roadways.empty();
+  if (anchors_only && map.grid) {
+    const map::OccupancyGrid& grid = *map.grid;
+    for (const double x : {0.0, grid.resolution * grid.columns}) {
+      for (const double y : {0.0, grid.resolution * grid.rows})
+        extent.add(grid.T_map_grid * Eigen::Vector2d(grid.x_min + x, grid.y_min + y));
+    }
+  }
   for (const map::Anchor& anchor : map.anchors) {
     if (anchors_only) extent.add(anchor.p_map.head<2>());
   }
@@ -51,7 +58,7 @@ double chosenScale(const map::TunnelMap& map, const Eigen::Vector2d& size, doubl
 }
 
 void requireUsable(const map::TunnelMap& map, const PlanOptions& options) {
-  if (map.roadways.empty() && map.anchors.empty()) {
+  if (map.roadways.empty() && map.anchors.empty() && !map.grid) {
     throw ConfigError(Complaint{.what = "the map has nothing to draw",
                                 .expected = "roadways or anchors",
                                 .suggestion = "add roadways to the map"});
