@@ -257,6 +257,22 @@ void checkFurniture(const TunnelMap& map, const References& references) {
   });
 }
 
+void check(const Requirements& requirements) {
+  const std::string key = "requirements";
+  if (requirements.anchors_visible < 0) {
+    refuse("a negative number of anchors is asked for", key + ".anchors_visible",
+           std::to_string(requirements.anchors_visible), ">= 0");
+  }
+  requirePositive(requirements.range_limit, key + ".range_limit_m", "the radio");
+  requireNotNegative(requirements.tag_height, key + ".tag_height_m", "the tag");
+  checkEach(requirements.vehicles, "requirements.vehicles",
+            [](const SiteVehicle& vehicle, const std::string& at) {
+              requirePositive(vehicle.width, at + ".width_m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.height, at + ".height_m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.length, at + ".length_m", "vehicle " + vehicle.id);
+            });
+}
+
 }  // namespace
 
 TunnelMap validated(TunnelMap map) {
@@ -267,6 +283,7 @@ TunnelMap validated(TunnelMap map) {
   const References references(map);
   checkJunctions(map, references);
   checkFurniture(map, references);
+  if (map.requirements) check(*map.requirements);
   if (map.background && map.background->control_points.size() < 3) {
     refuse("the background has too few control points", "background.control_points",
            std::to_string(map.background->control_points.size()), "at least three, not on one line");
