@@ -48,8 +48,7 @@ bool isDate(const std::string& text) {
   return month >= 1 && month <= 12 && day >= 1 && day <= 31;
 }
 
-void check(const Anchor& anchor) {
-  const std::string key = "anchors[id " + std::to_string(anchor.id) + "]";
+void check(const Anchor& anchor, const std::string& key) {
   if (!anchor.p_map.allFinite()) {
     refuse("anchor has a coordinate that is no number", key, "", "x_m, y_m, z_m in metres",
            "look up the anchor in the survey");
@@ -67,11 +66,12 @@ void check(const Anchor& anchor) {
 
 void checkAnchors(const TunnelMap& map) {
   std::set<AnchorId> seen;
-  for (const Anchor& anchor : map.anchors) {
-    check(anchor);
+  for (std::size_t i = 0; i < map.anchors.size(); ++i) {
+    const Anchor& anchor = map.anchors[i];
+    check(anchor, indexed("anchors", i));
     if (!seen.insert(anchor.id).second) {
-      refuse("two anchors have the same id", "anchors", "id " + std::to_string(anchor.id), "every id once",
-             "give one of the two its own id");
+      refuse("two anchors have the same id", indexed("anchors", i) + ".id", "id " + std::to_string(anchor.id),
+             "every id once", "give one of the two its own id");
     }
   }
 }
