@@ -1,0 +1,165 @@
+// Loose lines joined to chains, and chains made centrelines.
+#include <algorithm>
+#include <cmath>
+
+#include "dxf_parts.hpp"
+#include "pos/core/angle.hpp"
+
+namespace pos::io::dxf {
+namespace {
+
+constexpr double kSamePoint = 1e-3;  // m in plan; `validated` asks for 1e-4
+
+bool isLoose(const DxfEntity& entity) {
+  return entity.type == "LINE" || entity.type == "ARC";
+}
+
+std::vector<DxfVertex> reversed(const std::vector<DxfVertex>& vertices) {
+  std::vector<DxfVertex> back(vertices.rbegin(), vertices.rend());
+  for (std::size_t i = 0; i + 1 < back.size(); ++i) back[i].bulge = -back[i + 1].bulge;
+  back.back().bulge = 0.0;
+  return back;
+}
+
+/// Ends sorted by x, so that neighbours are found without comparing all pairs.
+struct End {
+  Eigen::Vector3d p;
+  std::size_t path;
+  bool first;
+};
+
+class Ends {
+ public:
+  Ends(const std::vector<const Shape*>& loose, double reach) : reach_(reach) {
+    for (std::size_t i = 0; i < loose.size(); ++i) {
+      ends_.push_back({loose[i]->vertices.front().p, i, true});
+      ends_.push_back({loose[i]->vertices.back().p, i, false});
+    }
+    std::sort(ends_.begin(), ends_.end(), [](const End& a, const End& b) {
+      return a.p.x() != b.p.x() ? a.p.x() < b.p.x() : a.path != b.path ? a.path < b.path : a.first < b.first;
+    });
+  }
+
+  /// The one other end at `p`; nothing when there are none or several.
+  const End* partner(const Eigen::Vector3d& p, std::size_t path, bool first) const {
+    const End* only = nullptr;
+    auto end = std::lower_bound(ends_.begin(), ends_.end(), p.x() - reach_,
+                                [](const End& e, double x) { return e.p.x() < x; });
+    for (; end != ends_.end() && end->p.x() <= p.x() + reach_; ++end) {
+      if (end->path == path && end->first == first) continue;
+      if ((end->p - p).norm() > reach_) continue;
+      if (only != nullptr) return nullptr;
+      only = &*end;
+    }
+    return only;
+  }
+
+ private:
+  double reach_;
+  std::vector<End> ends_;
+};
+
+void append(Chain& chain, const Shape& shape, bool forward) {
+  std::vector<DxfVertex> more = forward ? shape.vertices : reversed(shape.vertices);
+  if (!chain.vertices.empty()) {
+    chain.vertices.back().bulge = more.front().bulge;  // the joint is one point
+    more.erase(more.begin());
+  }
+  chain.vertices.insert(chain.vertices.end(), more.begin(), more.end());
+  chain.entities.push_back(shape.entity);
+}
+
+/// The chain that starts with this end of this path.
+Chain followed(const std::vector<const Shape*>& loose, const Ends& ends, std::vector<bool>& taken,
+               std::size_t path, bool forward) {
+  Chain chain;
+  while (true) {
+    taken[path] = true;
+    append(chain, *loose[path], forward);
+    const auto& out = forward ? loose[path]->vertices.back().p : loose[path]->vertices.front().p;
+    const End* next = ends.partner(out, path, !forward);
+    if (next == nullptr || taken[next->path]) return chain;
+    path = next->path;
+    forward = next->first;
+  }
+}
+
+double sweptAngle(double bulge) {
+  return 4.0 * std::atan(bulge);
+}
+
+/// The middle of the arc between two vertices: beside the chord's middle by half the chord times the bulge,
+/// to the right for a counter-clockwise arc.
+Eigen::Vector3d middleOfArc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double bulge) {
+  const Eigen::Vector3d chord = b - a;
+  return 0.5 * (a + b) + 0.5 * bulge * Eigen::Vector3d(chord.y(), -chord.x(), 0.0);
+}
+
+}  // namespace
+
+std::vector<Chain> joined(const std::vector<Shape>& paths, double reach) {
+  std::vector<Chain> chains;
+  std::vector<const Shape*> loose;
+  for (const Shape& shape : paths) {
+    if (isLoose(*shape.entity)) {
+      loose.push_back(&shape);
+      continue;
+    }
+    chains.push_back({{shape.entity}, shape.vertices});
+    if (shape.entity->closed) {
+      chains.back().vertices.push_back(shape.vertices.front());
+      chains.back().vertices.back().bulge = 0.0;
+    }
+  }
+  const Ends ends(loose, reach);
+  std::vector<bool> taken(loose.size(), false);
+  for (const bool rings : {false, true}) {  // open chains from their ends first, then rings
+    for (std::size_t i = 0; i < loose.size(); ++i) {
+      if (taken[i]) continue;
+      const bool start_free = ends.partner(loose[i]->vertices.front().p, i, true) == nullptr;
+      const bool end_free = ends.partner(loose[i]->vertices.back().p, i, false) == nullptr;
+      if (!rings && !start_free && !end_free) continue;
+      chains.push_back(followed(loose, ends, taken, i, rings || start_free));
+    }
+  }
+  return chains;
+}
+
+CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices) {
+  CentrelineMade made;
+  for (const DxfVertex& vertex : vertices) {
+    if (!made.points.empty() && (vertex.p - made.points.back().p_map).head<2>().norm() < kSamePoint) {
+      ++made.dropped;
+      made.points.back().arc = sweptAngle(vertex.bulge);
+      continue;
+    }
+    if (!made.points.empty() && std::abs(made.points.back().arc) > kPi) {
+      const double bulge = std::tan(0.25 * made.points.back().arc);
+      const Eigen::Vector3d middle = middleOfArc(made.points.back().p_map, vertex.p, bulge);
+      made.points.back().arc *= 0.5;
+      made.points.push_back({.p_map = middle, .arc = made.points.back().arc, .station = {}});
+    }
+    made.points.push_back({.p_map = vertex.p, .arc = sweptAngle(vertex.bulge), .station = {}});
+  }
+  if (!made.points.empty()) made.points.back().arc = 0.0;
+  return made;
+}
+
+double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p) {
+  double least = 1e300;
+  const auto toPiece = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    const Eigen::Vector2d d = b - a;
+    const double f =
+        d.squaredNorm() > 0.0 ? std::clamp((p.head<2>() - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+    least = std::min(least, (p.head<2>() - a - f * d).norm());
+  };
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    const Eigen::Vector3d middle = middleOfArc(vertices[i].p, vertices[i + 1].p, vertices[i].bulge);
+    toPiece(vertices[i].p.head<2>(), middle.head<2>());
+    toPiece(middle.head<2>(), vertices[i + 1].p.head<2>());
+  }
+  if (vertices.size() == 1) least = (vertices.front().p - p).head<2>().norm();
+  return least;
+}
+
+}  // namespace pos::io::dxf

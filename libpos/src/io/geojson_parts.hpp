@@ -1,0 +1,49 @@
+#pragma once
+/// What writing and reading GeoJSON share. Internal to io.
+
+#include <array>
+#include <string_view>
+
+#include "pos/io/map_geojson.hpp"
+#include "pos/map/centreline.hpp"
+
+namespace pos::io::geojson {
+
+/// A list of the map and the word for one of its objects.
+struct ObjectKind {
+  std::string_view list;
+  std::string_view word;
+};
+inline constexpr std::array<ObjectKind, 11> kObjectKinds = {{{"roadways", "roadway"},
+                                                             {"junctions", "junction"},
+                                                             {"crossings", "crossing"},
+                                                             {"bends", "bend"},
+                                                             {"chambers", "chamber"},
+                                                             {"anchors", "anchor"},
+                                                             {"portals", "portal"},
+                                                             {"lights", "light"},
+                                                             {"stop_lines", "stop_line"},
+                                                             {"zones", "zone"},
+                                                             {"routes", "route"}}};
+inline constexpr std::string_view kMapWord = "map";
+
+/// Where objects with a chainage are drawn. Lines follow the centreline.
+class Shapes {
+ public:
+  explicit Shapes(const map::TunnelMap& map);
+
+  using Line = std::vector<Eigen::Vector3d>;
+  /// One point for a Point, one line for a LineString, several for a MultiLineString; empty: no geometry.
+  std::vector<Line> of(std::string_view list, std::size_t index) const;
+
+ private:
+  Eigen::Vector3d at(const map::RoadwayPlace& place) const;
+  Eigen::Vector3d beside(const map::RoadwayPlace& place, map::Side side, double beyond_wall) const;
+  Line along(const map::RoadwayStretch& stretch) const;
+  std::size_t indexOf(const std::string& roadway) const;
+
+  const map::TunnelMap& map_;
+  std::vector<map::Centreline> lines_;
+};
+
+}  // namespace pos::io::geojson
