@@ -58,6 +58,7 @@ void addInfo(const Verbs& verbs);
 void addConfig(const Verbs& verbs);
 void addReport(const Verbs& verbs);
 void addSimulate(const Verbs& verbs);
+void addMap(const Verbs& verbs);
 void addVersion(const Verbs& verbs);
 
 }  // namespace pos::app
