@@ -40,7 +40,8 @@ TEST_F(Simulate, LeavesALogThatInfoExplainsWithTruthMapAndRecordOfTheRun) {
   EXPECT_TRUE(info.at("refused").empty());
   EXPECT_EQ(bench_.read("lane/map.yaml"), contents(source("maps/double_lane_shift/map.yaml")));
   const std::string truth = bench_.read("lane/truth.tum");
-  EXPECT_EQ(std::count(truth.begin(), truth.end(), '\n'), 601) << "30 s at 20 Hz with both ends";
+  EXPECT_EQ(std::count(truth.begin(), truth.end(), '\n'), 602)
+      << "a head line, and 30 s at 20 Hz with both ends";
   const json run = json::parse(bench_.read("lane/run.json"));
   EXPECT_EQ(run.at("seed"), 1);
   EXPECT_THAT(run.at("scenario").get<std::string>(), HasSubstr("double_lane_shift"));

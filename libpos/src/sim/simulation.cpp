@@ -83,18 +83,16 @@ TruthSampler::TruthSampler(const Simulation& simulation, double rate)
 std::optional<TruthPose> TruthSampler::next() {
   if (over_) return std::nullopt;
   const double t = static_cast<double>(count_++) / rate_;
-  const double end = simulation_->duration();
-  over_ = t >= end;
-  const Stamp stamp = simulation_->start() + durationFromSeconds(std::min(t, end));
+  const Stamp end = simulation_->end();
+  const Stamp stamp = std::min(simulation_->start() + durationFromSeconds(t), end);
+  over_ = stamp >= end;
   return TruthPose{stamp, simulation_->truthPoseAt(stamp)};
 }
 
 Truth sampledTruth(const Simulation& simulation, double rate) {
   Truth truth;
   TruthSampler sampler(simulation, rate);
-  while (const auto pose = sampler.next()) {
-    if (truth.poses.empty() || pose->stamp > truth.poses.back().stamp) truth.poses.push_back(*pose);
-  }
+  while (const auto pose = sampler.next()) truth.poses.push_back(*pose);
   return truth;
 }
 

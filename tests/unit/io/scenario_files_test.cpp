@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
@@ -94,6 +95,63 @@ TEST_P(ScenarioFile, EverythingSurvivesTheRawlogAndNoTruthIsInIt) {
     ASSERT_EQ(readingName(log.measurements[i].reading), readingName(made[i].reading));
     EXPECT_FALSE(std::holds_alternative<PoseTruth>(made[i].reading));
   }
+}
+
+sim::Simulation simulationOf(const std::string& name) {
+  const sim::Scenario scenario =
+      loadScenario(fs::path(POS_SOURCE_DIR) / "configs/scenarios" / (name + ".yaml"), {}, {});
+  const GridLoader grids = [](const fs::path& file) { return loadGrid(file.string()); };
+  return {scenario, std::make_shared<const map::TunnelMap>(loadMap(*scenario.map, {}, grids)), 1};
+}
+
+/// What the papers say, or what follows from it, of where a run ends.
+struct KnownEnd {
+  std::string scenario;
+  double duration;  // s
+  Eigen::Vector3d p_map;
+  double tolerance;  // m, half of the last digit
+};
+
+TEST(ScenarioFacts, RunsEndWhereThePapersSay) {
+  const std::vector<KnownEnd> known{
+      {"a1_double_lane_shift", 30.0, {23.945, 0.0, 0.0}, 5e-4},
+      {"a2_quarter_turn", 35.0, {10.0, -12.42, 0.0}, 5e-3},
+      {"be1_curve", 40.0, {2.008, 4.805, 0.0}, 5e-4},
+      {"be2_loop", 75.0, {0.40, 0.0, 0.0}, 5e-3},
+      {"circle_nlos", 72.83, {20.0, 0.0, 0.0}, 1e-6},
+      {"portal_run_known_r", 75.0, {374.35, 0.0, -13.94}, 5e-3},
+      {"mock_shaft", 400.0, {0.0, 0.0, 0.0}, 5e-3},
+      {"shearer_selection", 12364.0, {2.0, 350.0, 0.0}, 1e-6},
+      {"shearer_bend_creep", 25600.0, {5.0, -0.976, 0.0}, 1e-6},
+  };
+  for (const KnownEnd& end : known) {
+    const sim::Simulation simulation = simulationOf(end.scenario);
+    EXPECT_NEAR(simulation.duration(), end.duration, 5e-3) << end.scenario;
+    const Eigen::Vector3d p = simulation.truthAt(simulation.duration()).p_map;
+    EXPECT_LT((p - end.p_map).cwiseAbs().maxCoeff(), end.tolerance) << end.scenario << " " << p.transpose();
+  }
+}
+
+TEST(ScenarioFacts, TheLanesOfTheDoubleLaneShiftLieAsFarApartAsCalculated) {
+  const sim::Simulation simulation = simulationOf("a1_double_lane_shift");
+  EXPECT_NEAR(simulation.truthAt(16.0).p_map.y(), -1.568, 5e-4);
+}
+
+TEST(ScenarioFacts, TheQuarterTurnHasFourAnchorsOrMoreInSightOfEachTag) {
+  sim::Simulation simulation = simulationOf("a2_quarter_turn");
+  std::map<std::pair<Stamp, TagId>, int> heard;
+  while (const auto delivery = simulation.next()) {
+    const auto* range = std::get_if<BeaconRange>(&delivery->measurement.reading);
+    if (range != nullptr) ++heard[{delivery->measurement.stamp, range->tag}];
+  }
+  EXPECT_EQ(heard.size(), 702u) << "two tags, 35 s at 10 Hz";
+  const auto least = std::min_element(heard.begin(), heard.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most = std::max_element(heard.begin(), heard.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  EXPECT_EQ(least->second, 4);
+  EXPECT_EQ(most->second, 6);
+  EXPECT_NEAR(simulation.truthAt(20.0).p_map.x(), 7.0, 5e-4);
 }
 
 class VehicleFile : public ::testing::TestWithParam<fs::path> {};
