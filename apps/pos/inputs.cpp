@@ -8,7 +8,9 @@
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/overrides.hpp"
 #include "pos/io/rawlog_reader.hpp"
+#include "pos/io/scenario_yaml.hpp"
 #include "pos/io/trajectory_io.hpp"
+#include "pos/sim/simulation.hpp"
 
 namespace pos::app {
 namespace {
@@ -46,13 +48,17 @@ void requireFiles(const InputOptions& options, const io::RunConfig& config) {
     const std::string place = on_command_line ? option : options.config;
     io::existingFile(file, Complaint{.place = {.file = place}, .key = on_command_line ? "" : key});
   };
-  if (!config.log) {
+  if (!config.log && !config.scenario) {
     throw UsageError(Complaint{.what = "no log to replay",
                                .place = {.file = options.config},
                                .key = "log.file",
-                               .suggestion = "name it in the configuration or with --log"});
+                               .suggestion = "name it in the configuration (log or scenario) or with --log"});
   }
   if (config.map) require(*config.map, !options.map.empty(), "--map", "map");
+  if (config.scenario) {
+    require(config.scenario->file, false, "", "scenario.file");
+    return;
+  }
   try {
     require(config.log->file, !options.log.empty(), "--log", "log.file");
     if (config.truth && config.truth->file)
@@ -63,7 +69,10 @@ void requireFiles(const InputOptions& options, const io::RunConfig& config) {
 }
 
 void applyCommandLine(const InputOptions& options, io::RunConfig& config) {
-  if (!options.log.empty()) config.log = io::LogSource{fs::absolute(options.log)};
+  if (!options.log.empty()) {
+    config.log = io::LogSource{fs::absolute(options.log)};
+    config.scenario.reset();
+  }
   if (!options.map.empty()) config.map = fs::absolute(options.map);
   applyTruth(options, config);
 }
@@ -100,10 +109,23 @@ Truth readTruth(const io::TruthSource& source, const fs::path& log) {
   throw ContractError("unknown truth format");
 }
 
-map::TunnelMap mapOf(const io::RunConfig& config) {
-  if (!config.map) return {};
-  return io::loadMap(*config.map, mrptShare(),
-                     [](const fs::path& file) { return io::loadGrid(file.string()); });
+std::shared_ptr<const map::TunnelMap> loadedMap(const std::optional<fs::path>& file) {
+  if (!file) return std::make_shared<const map::TunnelMap>();
+  return std::make_shared<const map::TunnelMap>(
+      io::loadMap(*file, mrptShare(), [](const fs::path& grid) { return io::loadGrid(grid.string()); }));
+}
+
+/// The scenario in the place of a log, with its own map and truth. The estimators get the configuration's map
+/// where it names one: theirs may have errors that the mine has not.
+void loadScenario(Inputs& inputs) {
+  const io::ScenarioSource& source = *inputs.config.scenario;
+  sim::Scenario scenario = io::loadScenario(source.file, {}, mrptShare());
+  if (source.duration) scenario.duration = *source.duration;
+  inputs.scenario_map = loadedMap(scenario.map);
+  if (!inputs.config.map) inputs.map = inputs.scenario_map;
+  inputs.scenario = std::make_shared<const sim::Scenario>(std::move(scenario));
+  const sim::Simulation simulation(*inputs.scenario, inputs.scenario_map, inputs.config.seed);
+  inputs.truth = sim::sampledTruth(simulation, source.truth_rate);
 }
 
 /// `at_truth`: the place of the first reference pose, as a crew would survey the mark the run starts from.
@@ -174,8 +196,9 @@ Inputs loadInputs(const InputOptions& options) {
 
 Inputs loadInputs(io::RunConfig config) {
   Inputs inputs{std::move(config), nullptr, std::nullopt};
-  inputs.map = std::make_shared<const map::TunnelMap>(mapOf(inputs.config));
+  inputs.map = loadedMap(inputs.config.map);
   inputs.truth = loadTruth(inputs.config);
+  if (inputs.config.scenario) loadScenario(inputs);
   spellOutStarts(inputs);
   return inputs;
 }
@@ -191,8 +214,10 @@ Inputs inputsOfRun(const io::YamlDocument& file, InputOptions options, std::uint
 
 std::vector<InputFile> inputFiles(const Inputs& inputs) {
   const io::RunConfig& config = inputs.config;
-  std::vector<InputFile> files{{"log", config.log->file}};
+  std::vector<InputFile> files{config.scenario ? InputFile{"scenario", config.scenario->file}
+                                               : InputFile{"log", config.log->file}};
   if (config.map) files.push_back({"map", *config.map});
+  if (!config.map && inputs.scenario && inputs.scenario->map) files.push_back({"map", *inputs.scenario->map});
   if (config.truth && config.truth->file) files.push_back({"truth", *config.truth->file});
   return files;
 }

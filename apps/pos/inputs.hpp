@@ -12,6 +12,10 @@
 #include "pos/io/run_config.hpp"
 #include "pos/map/tunnel_map.hpp"
 
+namespace pos::sim {
+struct Scenario;
+}
+
 namespace pos::app {
 
 /// Options that name or change the inputs, the same for every verb that runs estimators.
@@ -31,9 +35,11 @@ void addInputs(CLI::App& verb, InputOptions& options);
 /// taken from the truth spelt out.
 struct Inputs {
   io::RunConfig config;
-  std::shared_ptr<const map::TunnelMap> map;
+  std::shared_ptr<const map::TunnelMap> map;  ///< what the estimators know
   std::optional<Truth> truth;
-  std::optional<eval::TimeGrid> grid = {};  ///< where the run is one of a campaign
+  std::shared_ptr<const sim::Scenario> scenario = {};       ///< where it takes the place of a log
+  std::shared_ptr<const map::TunnelMap> scenario_map = {};  ///< what is really there
+  std::optional<eval::TimeGrid> grid = {};                  ///< where the run is one of a campaign
 };
 
 Inputs loadInputs(const InputOptions& options);

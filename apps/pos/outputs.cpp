@@ -4,6 +4,7 @@
 
 #include "pos/core/error.hpp"
 #include "pos/eval/requirement.hpp"
+#include "pos/io/scenario_yaml.hpp"
 #include "pos/io/sha256.hpp"
 #include "pos/report/comparison.hpp"
 #include "pos/report/figures.hpp"
@@ -28,10 +29,11 @@ std::string runJson(const Inputs& inputs) {
   run["pos_version"] = version();
   run["git"] = gitHash();
   run["seed"] = config.seed;
-  run["inputs"] = {inputEntry("log", config.log->file)};
-  if (config.map) run["inputs"].push_back(inputEntry("map", *config.map));
-  if (config.truth && config.truth->file) run["inputs"].push_back(inputEntry("truth", *config.truth->file));
+  run["inputs"] = nlohmann::ordered_json::array();
+  for (const InputFile& input : inputFiles(inputs))
+    run["inputs"].push_back(inputEntry(input.role.c_str(), input.file));
   run["config"] = io::resolvedYaml(config);
+  if (config.scenario) run["scenario"] = io::resolvedYaml(*inputs.scenario);
   return run.dump(2) + "\n";
 }
 

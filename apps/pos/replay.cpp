@@ -6,6 +6,7 @@
 #include "pos/io/range_faults.hpp"
 #include "pos/yardstick/factory.hpp"
 #include "recorder.hpp"
+#include "source.hpp"
 
 namespace pos::app {
 namespace {
@@ -42,8 +43,8 @@ class Pass {
   }
 
   Replayed run(const Progress& progress) {
-    io::RawlogReader reader(inputs_.config.log->file.string());
-    while (auto measurement = reader.next()) {
+    const std::unique_ptr<Source> source = openSource(inputs_);
+    while (auto measurement = source->next()) {
       push(std::move(*measurement));
       drain();
       if (++result_.measurements % kProgressEvery == 0 && !progress(result_.measurements, result_.last)) {
@@ -54,8 +55,8 @@ class Pass {
     sequencer_.finish();
     drain();
     endEpoch();
-    if (!result_.interrupted) result_.log_end = reader.end();
-    result_.tally = reader.tally();
+    if (!result_.interrupted) result_.log_end = source->end();
+    result_.tally = source->tally();
     return finished();
   }
 
@@ -144,7 +145,7 @@ eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {
   const io::RunConfig& config = inputs.config;
   eval::RunSummary summary;
   summary.run = config.name;
-  summary.log = config.log->file.filename().string();
+  summary.log = (config.scenario ? config.scenario->file : config.log->file).filename().string();
   summary.map = inputs.map->name;
   summary.seed = config.seed;
   summary.start = replayed.first;

@@ -56,6 +56,13 @@ std::vector<eval::TimedPosition> estimatedPath(Inputs inputs, const std::string&
 
 ExitCode runLatency(const Options& options, const Voice& voice) {
   const Inputs inputs = loadInputs(options.inputs);
+  if (!inputs.config.log) {
+    throw UsageError(
+        Complaint{.what = "a latency is found in a recording, and the configuration has a scenario",
+                  .place = {.file = options.inputs.config},
+                  .key = "scenario",
+                  .suggestion = "write the scenario's log with pos simulate and name it with --log"});
+  }
   const auto reference = satellitePath(inputs.config.log->file);
   if (reference.size() < 10) {
     throw DataError(

@@ -1,66 +1,20 @@
 /// `pos replay`: a log through several estimators at once, judged against the truth.
 
-#include <unistd.h>
-#include <csignal>
-
-#include <cstdio>
 #include <memory>
 
 #include "outputs.hpp"
 #include "pos/core/error.hpp"
 #include "pos/report/comparison.hpp"
+#include "progress.hpp"
 #include "replay.hpp"
 
 namespace pos::app {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-
-void onInterrupt(int) {
-  interrupted = 1;
-}
-
 struct Options {
   InputOptions inputs;
   OutputOptions outputs;
   bool dry_run = false;
-};
-
-/// How far the replay is, on a terminal only; the share of the log's time is known once the truth tells its
-/// length.
-class ProgressLine {
- public:
-  ProgressLine(const Voice& voice, const std::optional<Truth>& truth)
-      : shown_(!voice.quiet && isatty(STDERR_FILENO) != 0) {
-    if (truth && truth->poses.size() > 1) end_ = truth->poses.back().stamp;
-  }
-  ~ProgressLine() {
-    if (drawn_) std::fprintf(stderr, "\r\033[K");
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ProgressLine(ProgressLine&&) = delete;
-  ProgressLine& operator=(ProgressLine&&) = delete;
-
-  void draw(std::uint64_t measurements, Stamp stamp) {
-    if (!shown_) return;
-    if (!start_) start_ = stamp;
-    drawn_ = true;
-    const double done = seconds(stamp - *start_);
-    const double whole = end_ ? seconds(*end_ - *start_) : 0.0;
-    const double share = whole > 0.0 ? std::min(1.0, done / whole) : 0.0;
-    const auto filled = static_cast<std::size_t>(30.0 * share);
-    const std::string bar =
-        whole > 0.0 ? "[" + std::string(filled, '=') + std::string(30 - filled, ' ') + "] " : "";
-    std::fprintf(stderr, "\r\033[Kreplay %s%.0f s of log, %llu measurements", bar.c_str(), done,
-                 static_cast<unsigned long long>(measurements));
-  }
-
- private:
-  bool shown_;
-  bool drawn_ = false;
-  std::optional<Stamp> start_;
-  std::optional<Stamp> end_;
 };
 
 void sayLeftOut(const io::LogTally& tally, const Voice& voice) {
@@ -98,12 +52,14 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
   for (const io::EstimatorEntry& entry : inputs.config.estimators) names.push_back(entry.name);
   refuseUnknownMetrics(options.outputs.requirements, names);
   const auto folder = openRunFolder(options.outputs);
-  std::signal(SIGINT, onInterrupt);
+  watchInterrupts();
   Replayed result = [&] {
-    ProgressLine line(voice, inputs.truth);
+    const bool knows_end = inputs.truth && inputs.truth->poses.size() > 1;
+    ProgressLine line(voice, "replay",
+                      knows_end ? std::optional(inputs.truth->poses.back().stamp) : std::nullopt);
     return replayed(inputs, folder ? &*folder : nullptr, [&](std::uint64_t count, Stamp stamp) {
       line.draw(count, stamp);
-      return interrupted == 0;
+      return !interrupted();
     });
   }();
   sayLeftOut(result.tally, voice);

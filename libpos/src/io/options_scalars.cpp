@@ -116,6 +116,8 @@ std::string expectedText(const Option& option) {
   switch (option.kind) {
     case Option::Kind::Number:
       return "a number" + tail;
+    case Option::Kind::Numbers:
+      return "a list of " + (option.count > 0 ? std::to_string(option.count) + " " : "") + "numbers" + tail;
     case Option::Kind::Integer:
       return "a whole number" + tail;
     case Option::Kind::Text:
@@ -162,6 +164,19 @@ double readNumber(const Field& field) {
   if (!std::isfinite(value)) refuse(field, "the number is too large for the machine");
   checkRange(field, siValue(text, ""));
   return value;
+}
+
+std::vector<double> readNumbers(const Field& field) {
+  if (field.node.kind != YamlNode::Kind::List) refuse(field, "this is not a list of numbers", "write [1, 2, 3]");
+  if (field.option.count > 0 && field.node.items.size() != field.option.count) {
+    refuse(field, "the list has the wrong length");
+  }
+  std::vector<double> values;
+  for (const YamlNode& item : field.node.items) {
+    const std::string path = field.path + "[" + std::to_string(values.size()) + "]";
+    values.push_back(readNumber({item, field.option, path}));
+  }
+  return values;
 }
 
 std::int64_t readInteger(const Field& field, std::int64_t min, std::int64_t max) {

@@ -24,6 +24,21 @@ YamlNode withRange(YamlNode schema, const Range& range) {
   return schema;
 }
 
+YamlNode numbersSchema(const Option& option) {
+  YamlNode item = tableNode();
+  item.add("type", textNode("number"));
+  YamlNode schema = tableNode();
+  schema.add("type", textNode("array"));
+  const std::string unit(unitOf(option.key).symbol);
+  schema.add("description", textNode(option.text + (unit.empty() ? "" : " Unit: " + unit + ".")));
+  schema.add("items", withRange(std::move(item), option.range));
+  if (option.count > 0) {
+    schema.add("minItems", plainNode(std::to_string(option.count)));
+    schema.add("maxItems", plainNode(std::to_string(option.count)));
+  }
+  return schema;
+}
+
 YamlNode leafSchema(const OptionRow& row, const void* defaults) {
   const Option& option = row.option;
   YamlNode schema = tableNode();
@@ -45,6 +60,7 @@ YamlNode leafSchema(const OptionRow& row, const void* defaults) {
 }
 
 YamlNode rowSchema(const OptionRow& row, const void* defaults) {
+  if (row.option.kind == Option::Kind::Numbers) return numbersSchema(row.option);
   if (!row.table) return leafSchema(row, defaults);
   const auto sample = row.sample(defaults);
   YamlNode inner = tableSchema(*row.table, sample.get());

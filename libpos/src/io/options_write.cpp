@@ -54,6 +54,8 @@ std::string kindName(const Option& option) {
   switch (option.kind) {
     case Option::Kind::Number:
       return "number";
+    case Option::Kind::Numbers:
+      return option.count > 0 ? std::to_string(option.count) + " numbers" : "numbers";
     case Option::Kind::Integer:
       return "whole number";
     case Option::Kind::Text:

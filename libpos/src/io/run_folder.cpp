@@ -11,7 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kRunFiles{"run.json", "events.csv", "summary.json", "report.html"};
+/// Of a replay and of a simulation.
+constexpr std::array kRunFiles{"run.json",   "events.csv", "summary.json",   "report.html",
+                               "log.rawlog", "map.yaml",   "grid.gridmap.gz"};
 
 [[noreturn]] void refuseFolder(const fs::path& folder, const std::string& what, const std::string& got,
                                const std::string& suggestion) {

@@ -13,7 +13,7 @@ constexpr long double kDegree = std::numbers::pi_v<long double> / 180.0L;
 /// sqrt(kDegree): a walk per square root of an angle, deg / sqrt(deg) = kDegree / sqrt(kDegree) in SI.
 constexpr long double kRootDegree = 0.13211090992020036711L;
 
-constexpr std::array<Unit, 33> kUnits = {{
+constexpr std::array<Unit, 44> kUnits = {{
     {"_m", "m", 1.0L},
     {"_s", "s", 1.0L},
     {"_deg", "deg", kDegree},
@@ -29,6 +29,17 @@ constexpr std::array<Unit, 33> kUnits = {{
     {"_m_per_sqrt_m", "m/sqrt(m)", 1.0L},
     {"_deg_per_sqrt_m", "deg/sqrt(m)", kDegree},
     {"_deg_per_sqrt_deg", "deg/sqrt(deg)", kRootDegree},
+    {"_m_per_s2", "m/s^2", 1.0L},
+    {"_m_per_s2_per_sqrt_s", "m/s^2/sqrt(s)", 1.0L},
+    {"_deg_per_m", "deg/m", kDegree},
+    {"_deg_per_h", "deg/h", kDegree / 3600.0L},
+    {"_deg_per_sqrt_h", "deg/sqrt(h)", kDegree / 60.0L},
+    {"_deg_per_h_per_sqrt_h", "deg/h/sqrt(h)", kDegree / 216000.0L},
+    {"_ug", "ug (1e-6 * 9.80665 m/s^2)", 9.80665e-6L},
+    {"_ug_per_sqrt_hz", "ug/sqrt(Hz)", 9.80665e-6L},
+    {"_ppm", "ppm", 1e-6L},
+    {"_db", "dB", 1.0L},
+    {"_dbm", "dBm", 1.0L},
     {"_mm", "mm", 1.0L, false},
     {"_cm", "cm", 1.0L, false},
     {"_dm", "dm", 1.0L, false},

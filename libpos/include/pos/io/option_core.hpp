@@ -36,12 +36,13 @@ inline Range between(double min, double max) {
 
 /// What a user has to know of one key.
 struct Option {
-  enum class Kind { Number, Integer, Text, Choice, Flag, Path, Table, List };
+  enum class Kind { Number, Numbers, Integer, Text, Choice, Flag, Path, Table, List };
   Kind kind = Kind::Number;
   std::string key;   ///< ends in the unit: "range_std_m"
   std::string text;  ///< one plain sentence
   Range range = {};
   std::vector<std::string> choices = {};
+  std::size_t count = 0;  ///< Numbers: how many; 0 is any number of them
   bool required = false;  ///< no default: the key has to be written
   bool optional = false;  ///< may be absent, and then has no value at all
 };
@@ -101,7 +102,8 @@ void readTable(const YamlNode& node, const TableCore& table, void* object, const
 YamlNode writeTable(const TableCore& table, const void* object, Comments comments);
 
 // Reading one value; all throw ConfigError.
-double readNumber(const Field& field);  ///< SI
+double readNumber(const Field& field);                ///< SI
+std::vector<double> readNumbers(const Field& field);  ///< SI
 std::int64_t readInteger(const Field& field, std::int64_t min, std::int64_t max);
 std::uint64_t readUnsigned(const Field& field, std::uint64_t max);
 std::string readText(const Field& field);

@@ -55,6 +55,21 @@ I readWhole(const Field& field) {
 }
 
 YamlNode writtenNumber(double value, const std::string& key);
+
+/// Numbers of a fixed count live in an Eigen vector, of any count in a std::vector. Other types that are
+/// written as a few numbers specialise it.
+template <class V>
+struct NumberList {
+  static constexpr std::size_t kCount = static_cast<std::size_t>(V::SizeAtCompileTime);
+  static V of(const std::vector<double>& values) { return V(values.data()); }
+  static std::vector<double> values(const V& list) { return {list.data(), list.data() + list.size()}; }
+};
+template <>
+struct NumberList<std::vector<double>> {
+  static constexpr std::size_t kCount = 0;
+  static std::vector<double> of(const std::vector<double>& values) { return values; }
+  static std::vector<double> values(const std::vector<double>& list) { return list; }
+};
 std::optional<YamlNode> writtenText(const std::string& value);
 
 }  // namespace detail
@@ -79,6 +94,26 @@ class OptionTable {
   OptionTable& number(std::string key, Member member, Range range, std::string text) {
     return leaf({.kind = Option::Kind::Number, .key = key, .text = std::move(text), .range = range}, member,
                 readNumber, [key](double value) { return detail::writtenNumber(value, key); });
+  }
+
+  /// [1, 2, 3]: as many as an Eigen vector holds, or any number of them for a std::vector.
+  template <class Member>
+  OptionTable& numbers(std::string key, Member member, Range range, std::string text) {
+    using Values = detail::ValueOf<T, Member>;
+    using List = detail::NumberList<Values>;
+    return leaf(
+        {.kind = Option::Kind::Numbers,
+         .key = key,
+         .text = std::move(text),
+         .range = range,
+         .count = List::kCount},
+        member, [](const Field& field) { return List::of(readNumbers(field)); },
+        [key](const Values& values) {
+          YamlNode list = listNode();
+          for (const double value : List::values(values))
+            list.items.push_back(detail::writtenNumber(value, key));
+          return list;
+        });
   }
 
   template <class Member>

@@ -26,6 +26,11 @@ class RunFolder {
   std::filesystem::path eventsCsv() const { return folder_ / "events.csv"; }
   std::filesystem::path summaryJson() const { return folder_ / "summary.json"; }
   std::filesystem::path reportHtml() const { return folder_ / "report.html"; }
+  /// What a simulation leaves: the log, the truth, the map with its grid.
+  std::filesystem::path log() const { return folder_ / "log.rawlog"; }
+  std::filesystem::path truth() const { return folder_ / "truth.tum"; }
+  std::filesystem::path map() const { return folder_ / "map.yaml"; }
+  std::filesystem::path grid() const { return folder_ / "grid.gridmap.gz"; }
   /// <estimator>.tum and <estimator>.csv. Throws ConfigError for a name that makes no good file name
   /// (letters, digits, '_', '-', '.'; not "events").
   std::filesystem::path tum(const std::string& estimator) const;
