@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "pos/core/error.hpp"
+#include "pos/io/scenario_yaml.hpp"
 #include "pos/io/sha256.hpp"
 #include "pos/report/campaign_files.hpp"
 #include "replay.hpp"
@@ -42,14 +43,21 @@ std::optional<eval::TimeGrid> gridOf(const Inputs& inputs) {
 }
 
 /// Checksum of what the figures of a run depend on beside the inputs' content: not of paths and names.
-std::string settingsOf(io::RunConfig config) {
+std::string settingsOf(const Inputs& inputs) {
+  io::RunConfig config = inputs.config;
   config.name = "-";
   config.campaign.baseline.reset();
   if (config.log) config.log->file = "-";
   if (config.scenario) config.scenario->file = "-";
   if (config.map) config.map = "-";
   if (config.truth && config.truth->file) config.truth->file = "-";
-  return io::sha256(io::resolvedYaml(config));
+  std::string all = io::resolvedYaml(config);
+  if (inputs.scenario) {  // with its vehicle, which may stand in a file of its own
+    sim::Scenario scenario = *inputs.scenario;
+    scenario.map.reset();
+    all += io::resolvedYaml(scenario);
+  }
+  return io::sha256(all);
 }
 
 Manifest manifestOf(const InputOptions& options, const Inputs& inputs, std::uint64_t runs) {
@@ -68,7 +76,7 @@ Manifest manifestOf(const InputOptions& options, const Inputs& inputs, std::uint
   for (const InputFile& input : inputFiles(inputs))
     m.inputs.push_back({input.role, input.file.string(), io::sha256OfFile(input.file)});
   m.config = io::resolvedYaml(config);
-  m.settings = settingsOf(config);
+  m.settings = settingsOf(inputs);
   m.command = repeatCommand(options, config.seed);
   return m;
 }

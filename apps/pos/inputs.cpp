@@ -233,6 +233,7 @@ std::vector<InputFile> inputFiles(const Inputs& inputs) {
   if (config.scenario) files.push_back({"scenario", config.scenario->file});
   if (config.log) files.push_back({"log", config.log->file});
   if (config.map) files.push_back({"map", *config.map});
+  if (!config.map && inputs.scenario && inputs.scenario->map) files.push_back({"map", *inputs.scenario->map});
   if (config.truth && config.truth->file) files.push_back({"truth", *config.truth->file});
   return files;
 }

@@ -39,7 +39,7 @@ struct Inputs {
   std::optional<Truth> truth;
   std::shared_ptr<const sim::Scenario> scenario = {};       ///< where it takes the place of a log
   std::shared_ptr<const map::TunnelMap> scenario_map = {};  ///< what is really there
-  std::optional<eval::TimeGrid> grid = {};  ///< where the run is one of a campaign
+  std::optional<eval::TimeGrid> grid = {};                  ///< where the run is one of a campaign
 };
 
 Inputs loadInputs(const InputOptions& options);

@@ -29,12 +29,9 @@ std::string runJson(const Inputs& inputs) {
   run["pos_version"] = version();
   run["git"] = gitHash();
   run["seed"] = config.seed;
-  run["inputs"] = {config.scenario ? inputEntry("scenario", config.scenario->file)
-                                   : inputEntry("log", config.log->file)};
-  if (config.map) run["inputs"].push_back(inputEntry("map", *config.map));
-  if (config.truth && config.truth->file) run["inputs"].push_back(inputEntry("truth", *config.truth->file));
-  if (config.scenario && !config.map && inputs.scenario->map)
-    run["inputs"].push_back(inputEntry("map", *inputs.scenario->map));
+  run["inputs"] = nlohmann::ordered_json::array();
+  for (const InputFile& input : inputFiles(inputs))
+    run["inputs"].push_back(inputEntry(input.role.c_str(), input.file));
   run["config"] = io::resolvedYaml(config);
   if (config.scenario) run["scenario"] = io::resolvedYaml(*inputs.scenario);
   return run.dump(2) + "\n";
