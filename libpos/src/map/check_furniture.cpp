@@ -49,8 +49,8 @@ Finding blindFinding(const Network& network, RoadwayIndex r, const Blind& blind,
   return {.check = Check::FewAnchors,
           .severity = Severity::Warning,
           .what = "from chainage " + metres(blind.from) + " to " + metres(blind.to) + " of roadway " + id +
-                  " only " + std::to_string(blind.fewest) + " anchors are seen, " + std::to_string(needed) +
-                  " are asked for",
+                  (blind.fewest == 0 ? " no anchor is" : " only " + std::to_string(blind.fewest) + " anchors are") +
+                  " seen, " + std::to_string(needed) + " are asked for",
           .remedy = "add anchors there (pos map plan-anchors proposes places)",
           .objects = {"roadway " + id},
           .p_map = network.centreline(r).at(0.5 * (blind.from + blind.to)).p_map};
