@@ -64,8 +64,9 @@ TEST_F(Campaign, ResultsDoNotDependOnThreadsOrParts) {
   ASSERT_EQ(run({"--shard", "1/2", "--out", "a"}).exit_code, 0);
   EXPECT_EQ(bench_.read("a/campaign.json"), "") << "a part is not judged alone";
   expectRefusal({"campaign", "merge", "a", "--out", "merged"}, 5, "2 of 5 runs are missing");
+  EXPECT_FALSE(fs::exists(bench_.folder() / "merged"));
   ASSERT_EQ(run({"--shard", "2/2", "--out", "b"}).exit_code, 0);
-  const RunResult merge = bench_.pos({"campaign", "merge", "b", "a", "--out", "merged", "--force"});
+  const RunResult merge = bench_.pos({"campaign", "merge", "b", "a", "--out", "merged"});
   ASSERT_EQ(merge.exit_code, 0) << merge.err;
   expectSameResults("one", "merged");
 }

@@ -156,6 +156,7 @@ std::vector<std::string> estimatorWarnings(const EstimatorOverRuns& e, std::size
 }  // namespace
 
 std::string metricTitle(const std::string& metric) {
+  if (metric == "consistency.nees_xy_mean") return "NEES xy";
   if (!metric.starts_with("errors.")) return metric;
   const std::size_t dot = metric.rfind('.');
   const std::string component = metric.substr(7, dot - 7);
