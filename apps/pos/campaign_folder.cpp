@@ -66,6 +66,7 @@ void dropEarlier(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (entry.is_regular_file() && name.find(".json") != std::string::npos) fs::remove(entry.path());
   }
+  if (fs::is_empty(folder / "runs")) fs::remove(folder / "runs");
 }
 
 void requireSameCampaign(const fs::path& folder, const Manifest& manifest) {
