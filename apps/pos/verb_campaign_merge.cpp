@@ -10,8 +10,6 @@
 namespace pos::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct MergeOptions {
   std::vector<std::string> folders;
   OutputOptions outputs;
@@ -34,14 +32,6 @@ Manifest commonManifest(const std::vector<std::string>& folders) {
                   .suggestion = "merge folders made by the same command, with different --shard"});
   }
   return first;
-}
-
-/// The result goes into a folder whose runs are merged: they must not be dropped first.
-bool isOneOf(const std::vector<std::string>& folders, const std::string& out) {
-  return std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) {
-    std::error_code missing;
-    return fs::equivalent(folder, out, missing);
-  });
 }
 
 std::string runList(const std::vector<std::uint64_t>& runs) {
@@ -86,9 +76,9 @@ ExitCode runMerge(const MergeOptions& options, const Voice& voice) {
   for (const std::string& part : options.folders) parts.push_back(std::make_unique<RunRecords>(part));
   if (!options.partial) requireAllRuns(manifest, parts, options.folders.front());
   const std::string& folder = options.outputs.folder;
-  const bool replace = options.outputs.force && !isOneOf(options.folders, folder);
-  if (!folder.empty())
-    openCampaignFolder(folder, manifest, replace ? EarlierRuns::Drop : EarlierRuns::Continue);
+  if (!folder.empty()) {
+    openCampaignFolder(folder, manifest, options.outputs.force ? EarlierRuns::Drop : EarlierRuns::Continue);
+  }
   const std::unique_ptr<RunRecords> records =
       folder.empty() ? std::make_unique<RunRecords>() : std::make_unique<RunRecords>(folder);
   gather(manifest, parts, *records);
