@@ -1,5 +1,6 @@
 #include "pos/io/background.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>

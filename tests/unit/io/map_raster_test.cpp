@@ -12,6 +12,7 @@
 #include "pos/estimation/mcl.hpp"
 #include "pos/io/beacon_map_io.hpp"
 #include "pos/io/grid_io.hpp"
+#include "pos/map/centreline.hpp"
 #include "scratch_folder.hpp"
 #include "support/map_samples.hpp"
 #include "support/mcl_scene.hpp"
@@ -159,7 +160,7 @@ TEST(MapRaster, ExportedGridAndBeaconsDriveTheParticleFilter) {
   RandomStream random(3, 5);
   Stamp stamp = stampFromSeconds(10.0);
   const Pose2 step{0.5, 0.0, 0.0};
-  const OdometryNoise noise;
+  const estimation::OdometryNoise noise;
   double worst = 0.0;
   for (int k = 0; k < 160; ++k) {
     stamp += durationFromSeconds(0.25);

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "pos/core/error.hpp"
+
 namespace pos::io {
 
 class ScratchFolder {

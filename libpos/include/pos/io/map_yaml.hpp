@@ -25,8 +25,8 @@ inline constexpr int kMapSchema = 2;
 /// A map file as written: everything but the cells of the grid.
 struct MapFile {
   int schema = kMapSchema;
-  map::TunnelMap map;
-  std::optional<GridReference> grid;
+  map::TunnelMap map = {};
+  std::optional<GridReference> grid = {};
 
   bool operator==(const MapFile&) const = default;
 };
