@@ -43,6 +43,9 @@ class DualUwbFilter : public Estimator {
   GyroInput gyroAt(Stamp stamp) const;
   IngestReport correctRange(Stamp stamp, const UwbReading& reading);
   void holdCourse(Stamp stamp);
+  bool allDisagree(Stamp stamp, Verdict verdict);
+  void doubtVelocity(Stamp stamp);
+  std::string_view facing(const Pose2& found);
   void settle(Stamp stamp);
   std::string_view alarm(Stamp stamp);
   bool backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const;
@@ -66,10 +69,16 @@ class DualUwbFilter : public Estimator {
   double gyro_rate_ = 0.0;
   std::optional<Stamp> course_held_;
   std::optional<Stamp> backwards_since_;
+  std::optional<Stamp> applied_stamp_;  // of the last range that passed
+  int rejected_in_row_ = 0;
+  std::optional<Pose2> started_at_;  // the last pose found from ranges alone
+  double wheel_way_ = 0.0;           // m, signed, that the wheels turned since
+  std::optional<Stamp> wheel_stamp_;
   bool alarmed_ = false;
   int restarts_ = 0;
   int blockings_ = 0;
   int alarms_ = 0;
+  int doubts_ = 0;
 };
 
 }  // namespace pos::estimation
