@@ -14,6 +14,13 @@ int AnchorWatch::heardLately(Stamp stamp) const {
   return count;
 }
 
+int AnchorWatch::disagreeing(Stamp stamp) const {
+  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
+  int count = 0;
+  for (const State& state : anchors_) count += state.heard && *state.heard >= lately && !state.agrees ? 1 : 0;
+  return count;
+}
+
 AnchorWatch::Finding AnchorWatch::note(int anchor, Stamp stamp, std::optional<Verdict> tested) {
   State& state = anchors_[static_cast<std::size_t>(anchor)];
   state.heard = stamp;

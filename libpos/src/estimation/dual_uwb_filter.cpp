@@ -106,8 +106,6 @@ IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
     return refusal(Verdict::Unsupported, "wheel speeds are switched off (wheel_speed_sigma 0)");
   begin(stamp);
   const double speed = 0.5 * (wheels.left + wheels.right);
-  if (wheel_stamp_) wheel_way_ += speed * seconds(stamp - *wheel_stamp_);
-  wheel_stamp_ = stamp;
   if (bank_.empty()) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first pose");
   carryTo(stamp);
   const Matrix<1, 1> R(square(config_.wheel_speed_sigma));
@@ -120,7 +118,9 @@ IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
     if (i == bank_.bestIndex()) told = c;
   }
   settle(stamp);
-  return reportOf(told);
+  IngestReport report = reportOf(told);
+  report.event = wheelsAtOdds(stamp, speed);
+  return report;
 }
 
 /// The last rate with its age. Without one, or with one so old that the true rate may be any, the age at
@@ -168,6 +168,21 @@ void DualUwbFilter::holdCourse(Stamp stamp) {
   }
 }
 
+/// Every hypothesis corrected by the range; what is told is the best one's.
+Told DualUwbFilter::corrected(const UwbReading& reading) {
+  const Matrix<1, 1> R(square(reading.range.sigma));
+  Told told;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {
+    DualUwbHypothesis& h = bank_.hypotheses()[i];
+    const auto row = rangeInnovation(h.belief.mean, layout_, reading.range, config_.body_height, reading.tag,
+                                     reading.anchor);
+    const Told c = filters::correct(h.belief, row, R, gate_);
+    if (bank_.size() > 1) h.log_weight += logLikelihood(c);
+    if (i == bank_.bestIndex()) told = c;
+  }
+  return told;
+}
+
 IngestReport DualUwbFilter::correctRange(Stamp stamp, const UwbReading& reading) {
   const int anchor = reading.anchor;
   if (watch_.blocked(anchor, stamp)) {
@@ -179,20 +194,13 @@ IngestReport DualUwbFilter::correctRange(Stamp stamp, const UwbReading& reading)
     }
     return report;
   }
-  const Matrix<1, 1> R(square(reading.range.sigma));
-  Told told;
-  for (std::size_t i = 0; i < bank_.size(); ++i) {
-    DualUwbHypothesis& h = bank_.hypotheses()[i];
-    const auto row =
-        rangeInnovation(h.belief.mean, layout_, reading.range, config_.body_height, reading.tag, anchor);
-    const Told c = filters::correct(h.belief, row, R, gate_);
-    if (bank_.size() > 1) h.log_weight += logLikelihood(c);
-    if (i == bank_.bestIndex()) told = c;
-  }
+  Told told = corrected(reading);
   IngestReport report = reportOf(told);
   report.event = alarm(stamp);
   if (allDisagree(stamp, told.verdict)) {
     doubtVelocity(stamp);
+    told = corrected(reading);
+    report = reportOf(told);
     report.event = "all anchors disagree at once: the velocity is made unsure";
   }
   switch (watch_.note(anchor, stamp, told.verdict)) {

@@ -66,4 +66,19 @@ std::string_view DualUwbFilter::alarm(Stamp stamp) {
   return "drives backwards, which it never does: are the tags swapped?";
 }
 
+/// Wheels that turn one way while the tags go the other pull the filter apart: it fits half of the anchors at
+/// most.
+std::string_view DualUwbFilter::wheelsAtOdds(Stamp stamp, double speed) {
+  const int heard = watch_.heardLately(stamp);
+  if (heard < 2 || 2 * watch_.disagreeing(stamp) < heard || std::abs(speed) < kCrawl) {
+    at_odds_since_.reset();
+    return {};
+  }
+  if (!at_odds_since_) at_odds_since_ = stamp;
+  if (stamp - *at_odds_since_ < durationFromSeconds(kBackwards)) return {};
+  at_odds_since_ = stamp;
+  ++alarms_;
+  return "wheels and ranges do not go together: are the tags swapped?";
+}
+
 }  // namespace pos::estimation

@@ -10,7 +10,6 @@ constexpr double kGatherTime = 1.0;  // s, ranges older than this do not help to
 constexpr int kAttempts = 10;        // cycles of ranges that disagree before they are taken all the same
 constexpr double kStillSpeed = 0.1;  // m/s, how still a vehicle stands that is known to stand
 constexpr double kStillRate = 0.05;  // rad/s
-constexpr double kTellingWay = 0.5;  // m, of the wheels, that shows a direction
 
 double square(double value) {
   return value * value;
@@ -45,6 +44,7 @@ void DualUwbFilter::restart() {
   watch_.forget();
   still_until_.reset();
   backwards_since_.reset();
+  at_odds_since_.reset();
   applied_stamp_.reset();
   rejected_in_row_ = 0;
   ++restarts_;
@@ -72,29 +72,14 @@ IngestReport DualUwbFilter::gather(Stamp stamp, const UwbReading& reading) {
     const uwb::RigidFixes fixes =
         uwb::rigidFixes({aged.data(), early_.ranges().size()}, config_.body_height, residual_test_);
     if (fixes.count > 0 && (fixes.fixes[0].consistent || ++attempts_ > kAttempts)) {
-      const std::string_view told = facing(fixes.fixes[0].pose.mean);
       start(stamp, fixes);
       report = correctRange(stamp, reading);
-      report.event = told.empty() ? "first pose found from the ranges" : told;
+      report.event = "first pose found from the ranges";
       return report;
     }
   }
   early_.add(stamp, reading);
   return report;
-}
-
-/// From one pose found from ranges alone to the next, the vehicle faces the way that its wheels turned,
-/// unless the tags are swapped: then a filter that believes the wheels keeps losing itself.
-std::string_view DualUwbFilter::facing(const Pose2& found) {
-  const double turned = wheel_way_;
-  const std::optional<Pose2> before = started_at_;
-  started_at_ = found;
-  wheel_way_ = 0.0;
-  if (!before || std::abs(turned) < kTellingWay) return {};
-  const double forward = (inverse(found) * before->translation()).x();  // where it was, seen from where it is
-  if (forward * turned < 0.0 || std::abs(forward) < 0.5 * std::abs(turned)) return {};
-  ++alarms_;
-  return "faces against the way its wheels turned: are the tags swapped?";
 }
 
 void DualUwbFilter::start(Stamp stamp, const uwb::RigidFixes& fixes) {

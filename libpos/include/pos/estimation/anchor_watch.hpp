@@ -28,6 +28,8 @@ class AnchorWatch {
   void forget();
   /// Anchors heard within `restart_after` before the stamp, hidden ones among them.
   int heardLately(Stamp stamp) const;
+  /// Of those, how many were rejected when last tested.
+  int disagreeing(Stamp stamp) const;
 
  private:
   struct State {

@@ -42,10 +42,11 @@ class DualUwbFilter : public Estimator {
   Belief<DualUwbState> carried(Belief<DualUwbState> belief, Stamp stamp) const;
   GyroInput gyroAt(Stamp stamp) const;
   IngestReport correctRange(Stamp stamp, const UwbReading& reading);
+  filters::Correction<1> corrected(const UwbReading& reading);
   void holdCourse(Stamp stamp);
   bool allDisagree(Stamp stamp, Verdict verdict);
   void doubtVelocity(Stamp stamp);
-  std::string_view facing(const Pose2& found);
+  std::string_view wheelsAtOdds(Stamp stamp, double speed);
   void settle(Stamp stamp);
   std::string_view alarm(Stamp stamp);
   bool backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const;
@@ -71,9 +72,7 @@ class DualUwbFilter : public Estimator {
   std::optional<Stamp> backwards_since_;
   std::optional<Stamp> applied_stamp_;  // of the last range that passed
   int rejected_in_row_ = 0;
-  std::optional<Pose2> started_at_;  // the last pose found from ranges alone
-  double wheel_way_ = 0.0;           // m, signed, that the wheels turned since
-  std::optional<Stamp> wheel_stamp_;
+  std::optional<Stamp> at_odds_since_;  // half of the anchors disagree while the wheels turn
   bool alarmed_ = false;
   int restarts_ = 0;
   int blockings_ = 0;
