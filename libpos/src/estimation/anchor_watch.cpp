@@ -7,9 +7,17 @@ bool AnchorWatch::blocked(int anchor, Stamp stamp) const {
   return state.blocked_until && stamp < *state.blocked_until;
 }
 
-int AnchorWatch::blockedNow(Stamp stamp) const {
+int AnchorWatch::heardLately(Stamp stamp) const {
+  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
   int count = 0;
-  for (int i = 0; i < static_cast<int>(anchors_.size()); ++i) count += blocked(i, stamp) ? 1 : 0;
+  for (const State& state : anchors_) count += state.heard && *state.heard >= lately ? 1 : 0;
+  return count;
+}
+
+int AnchorWatch::disagreeing(Stamp stamp) const {
+  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
+  int count = 0;
+  for (const State& state : anchors_) count += state.heard && *state.heard >= lately && !state.agrees ? 1 : 0;
   return count;
 }
 

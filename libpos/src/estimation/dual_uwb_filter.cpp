@@ -12,8 +12,6 @@ namespace {
 constexpr double kOutlierShare = 0.05;
 constexpr double kOutlierDensity = 1.0 / 50.0;  // 1/m, a bad range may be anywhere over tens of metres
 constexpr double kCoursePeriod = 0.1;           // s between two constraints of a free vehicle
-constexpr double kBackwards = 1.0;              // s of driving backwards that raise an alarm
-constexpr double kCrawl = 0.2;                  // m/s, slower than this has no direction
 
 double square(double value) {
   return value * value;
@@ -107,9 +105,9 @@ IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
   if (config_.wheel_speed_sigma <= 0.0)
     return refusal(Verdict::Unsupported, "wheel speeds are switched off (wheel_speed_sigma 0)");
   begin(stamp);
+  const double speed = 0.5 * (wheels.left + wheels.right);
   if (bank_.empty()) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first pose");
   carryTo(stamp);
-  const double speed = 0.5 * (wheels.left + wheels.right);
   const Matrix<1, 1> R(square(config_.wheel_speed_sigma));
   Told told;
   for (std::size_t i = 0; i < bank_.size(); ++i) {
@@ -121,12 +119,7 @@ IngestReport DualUwbFilter::take(Stamp stamp, const WheelSpeeds& wheels) {
   }
   settle(stamp);
   IngestReport report = reportOf(told);
-  if (told.verdict == Verdict::Gated && std::abs(speed) > kCrawl && !alarmed_ &&
-      std::abs(told.nu[0] - 2.0 * speed) < std::abs(speed)) {
-    alarmed_ = true;  // the wheels turn the other way: the vehicle faces where it comes from
-    ++alarms_;
-    report.event = "wheels and ranges disagree about forward: are the tags swapped?";
-  }
+  report.event = wheelsAtOdds(stamp, speed);
   return report;
 }
 
@@ -175,6 +168,21 @@ void DualUwbFilter::holdCourse(Stamp stamp) {
   }
 }
 
+/// Every hypothesis corrected by the range; what is told is the best one's.
+Told DualUwbFilter::corrected(const UwbReading& reading) {
+  const Matrix<1, 1> R(square(reading.range.sigma));
+  Told told;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {
+    DualUwbHypothesis& h = bank_.hypotheses()[i];
+    const auto row = rangeInnovation(h.belief.mean, layout_, reading.range, config_.body_height, reading.tag,
+                                     reading.anchor);
+    const Told c = filters::correct(h.belief, row, R, gate_);
+    if (bank_.size() > 1) h.log_weight += logLikelihood(c);
+    if (i == bank_.bestIndex()) told = c;
+  }
+  return told;
+}
+
 IngestReport DualUwbFilter::correctRange(Stamp stamp, const UwbReading& reading) {
   const int anchor = reading.anchor;
   if (watch_.blocked(anchor, stamp)) {
@@ -186,18 +194,15 @@ IngestReport DualUwbFilter::correctRange(Stamp stamp, const UwbReading& reading)
     }
     return report;
   }
-  const Matrix<1, 1> R(square(reading.range.sigma));
-  Told told;
-  for (std::size_t i = 0; i < bank_.size(); ++i) {
-    DualUwbHypothesis& h = bank_.hypotheses()[i];
-    const auto row =
-        rangeInnovation(h.belief.mean, layout_, reading.range, config_.body_height, reading.tag, anchor);
-    const Told c = filters::correct(h.belief, row, R, gate_);
-    if (bank_.size() > 1) h.log_weight += logLikelihood(c);
-    if (i == bank_.bestIndex()) told = c;
-  }
+  Told told = corrected(reading);
   IngestReport report = reportOf(told);
   report.event = alarm(stamp);
+  if (allDisagree(stamp, told.verdict)) {
+    doubtVelocity(stamp);
+    told = corrected(reading);
+    report = reportOf(told);
+    report.event = "all anchors disagree at once: the velocity is made unsure";
+  }
   switch (watch_.note(anchor, stamp, told.verdict)) {
     case AnchorWatch::Finding::None:
       break;
@@ -225,26 +230,6 @@ void DualUwbFilter::settle(Stamp stamp) {
   bank_.settle();
 }
 
-bool DualUwbFilter::backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const {
-  const PlanarTwist twist = twistOf(hypothesis.belief, layout_, config_, gyroAt(stamp));
-  return twist.rates[0] < -kCrawl && twist.rates[0] < -3.0 * std::sqrt(twist.covariance(0, 0));
-}
-
-/// Swapped tags and mirror images turn the vehicle round: it seems to drive backwards for good.
-std::string_view DualUwbFilter::alarm(Stamp stamp) {
-  if (!config_.never_reverses) return {};
-  if (!backwards(bank_.best(), stamp)) {
-    backwards_since_.reset();
-    alarmed_ = false;
-    return {};
-  }
-  if (!backwards_since_) backwards_since_ = stamp;
-  if (alarmed_ || stamp - *backwards_since_ < durationFromSeconds(kBackwards)) return {};
-  alarmed_ = true;
-  ++alarms_;
-  return "drives backwards, which it never does: are the tags swapped?";
-}
-
 std::optional<Estimate> DualUwbFilter::estimateAt(Stamp stamp) const {
   if (bank_.empty() || stamp < *state_stamp_) return std::nullopt;
   const Belief<DualUwbState> state = carried(bank_.best().belief, stamp);
@@ -269,6 +254,7 @@ Diagnostics DualUwbFilter::diagnostics() const {
   Diagnostics values{{"hypotheses", static_cast<double>(bank_.size())},
                      {"restarts", static_cast<double>(restarts_)},
                      {"anchors_blocked", static_cast<double>(blockings_)},
+                     {"velocity_doubts", static_cast<double>(doubts_)},
                      {"direction_alarms", static_cast<double>(alarms_)}};
   if (bank_.empty()) return values;
   for (std::size_t i = 0; i < bank_.size(); ++i) {  // mirror images are told, not averaged

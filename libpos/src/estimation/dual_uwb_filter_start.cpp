@@ -44,6 +44,9 @@ void DualUwbFilter::restart() {
   watch_.forget();
   still_until_.reset();
   backwards_since_.reset();
+  at_odds_since_.reset();
+  applied_stamp_.reset();
+  rejected_in_row_ = 0;
   ++restarts_;
 }
 

@@ -131,22 +131,15 @@ class Search {
   Search(std::span<const BodyRange> ranges, double body_height, const ResidualTest& test)
       : model_{ranges, body_height}, weights_(weightsOf(ranges)), test_(test) {}
 
-  void add(const Vector<3>& start) {
-    const auto robust = detail::robustFit<3>(model_, start, weights_, test_);
-    RigidFix fix;
-    if (!robust.fit.solved || !detail::invert<3>(robust.fit.normal.information, fix.pose.covariance)) return;
-    Vector<3> q = robust.fit.x;
-    q[2] = wrapAngle(q[2]);
-    for (const RigidFix& other : found_.all()) {
-      if (same(q, {other.pose.mean.x, other.pose.mean.y, other.pose.mean.yaw})) return;
-    }
-    fix.pose.mean = {q[0], q[1], q[2]};
-    fix.pose.covariance *= robust.inflation;
-    fix.chi_square = robust.fit.normal.cost;
-    fix.dof = robust.used - 3;
-    fix.used = detail::maskOf(robust.weights);
-    fix.consistent = robust.consistent;
-    keep(fix);
+  /// With the search for bad ranges.
+  void add(const Vector<3>& start) { keep(detail::robustFit<3>(model_, start, weights_, test_)); }
+
+  /// Without it: only a pose that all ranges agree on. Starts on the wrong side of a line of anchors are
+  /// cheap so.
+  void addPlain(const Vector<3>& start) {
+    const detail::Fit<3> fit = detail::fitted<3>(model_, start, weights_);
+    const int used = detail::counted(weights_);
+    if (fit.solved && test_.passes(fit.normal.cost, used - 3)) keep({fit, weights_, used, true, 1.0});
   }
 
   /// A pose that leaves no range out needs no further search.
@@ -167,6 +160,23 @@ class Search {
  private:
   std::size_t last() const { return static_cast<std::size_t>(found_.count) - 1; }
 
+  void keep(const detail::RobustFit<3>& robust) {
+    RigidFix fix;
+    if (!robust.fit.solved || !detail::invert<3>(robust.fit.normal.information, fix.pose.covariance)) return;
+    Vector<3> q = robust.fit.x;
+    q[2] = wrapAngle(q[2]);
+    for (const RigidFix& other : found_.all()) {
+      if (same(q, {other.pose.mean.x, other.pose.mean.y, other.pose.mean.yaw})) return;
+    }
+    fix.pose.mean = {q[0], q[1], q[2]};
+    fix.pose.covariance *= robust.inflation;
+    fix.chi_square = robust.fit.normal.cost;
+    fix.dof = robust.used - 3;
+    fix.used = detail::maskOf(robust.weights);
+    fix.consistent = robust.consistent;
+    sortIn(fix);
+  }
+
   /// What speaks against a pose: its residuals, and every range that it has to leave out.
   double against(const RigidFix& fix) const {
     const auto left_out = static_cast<double>(weights_.size()) - std::popcount(fix.used);
@@ -174,7 +184,7 @@ class Search {
   }
 
   /// Sorted by what speaks against them; the worst falls off the end.
-  void keep(const RigidFix& fix) {
+  void sortIn(const RigidFix& fix) {
     if (found_.count == 4) {
       if (against(fix) >= against(found_.fixes[3])) return;
       --found_.count;
@@ -205,13 +215,24 @@ Vector<3> startBetween(const TagGroup& a, const Eigen::Vector2d& p_a, const TagG
   return {p.x(), p.y(), yaw};
 }
 
-void startFromTags(Search& search, const Groups& groups) {
+struct TagStarts {
+  std::array<Vector<3>, 4> poses;
+  std::size_t count = 0;
+
+  std::span<const Vector<3>> all() const { return {poses.data(), count}; }
+};
+
+/// Both tags by themselves, both sides of a line of anchors each.
+TagStarts startsFromTags(const Groups& groups) {
   const auto& [a, b] = groups.groups;
   const detail::Starts first = detail::startingPlaces(a.all(), weightsOf(a.all()));
   const detail::Starts second = detail::startingPlaces(b.all(), weightsOf(b.all()));
+  TagStarts starts;
   for (const Eigen::Vector2d& p_a : first.all()) {
-    for (const Eigen::Vector2d& p_b : second.all()) search.add(startBetween(a, p_a, b, p_b));
+    for (const Eigen::Vector2d& p_b : second.all())
+      starts.poses[starts.count++] = startBetween(a, p_a, b, p_b);
   }
+  return starts;
 }
 
 void startFromHeadings(Search& search, std::span<const BodyRange> ranges, double body_height) {
@@ -238,8 +259,11 @@ RigidFixes rigidFixes(std::span<const BodyRange> ranges, double body_height, con
   const Groups groups = groupsOf(ranges, body_height);
   if (groups.tags < 2) return {};
   Search search(ranges, body_height, test);
-  if (groups.groups[1].count >= 2) startFromTags(search, groups);
-  if (!search.good()) startFromHeadings(search, ranges, body_height);
+  const TagStarts starts = groups.groups[1].count >= 2 ? startsFromTags(groups) : TagStarts{};
+  for (const Vector<3>& start : starts.all()) search.addPlain(start);
+  if (search.good()) return search.judged();
+  for (const Vector<3>& start : starts.all()) search.add(start);
+  startFromHeadings(search, ranges, body_height);
   return search.judged();
 }
 

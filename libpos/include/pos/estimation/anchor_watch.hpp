@@ -26,7 +26,10 @@ class AnchorWatch {
   /// blocked.
   Finding note(int anchor, Stamp stamp, std::optional<Verdict> tested);
   void forget();
-  int blockedNow(Stamp stamp) const;
+  /// Anchors heard within `restart_after` before the stamp, hidden ones among them.
+  int heardLately(Stamp stamp) const;
+  /// Of those, how many were rejected when last tested.
+  int disagreeing(Stamp stamp) const;
 
  private:
   struct State {

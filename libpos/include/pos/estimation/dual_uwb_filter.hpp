@@ -42,7 +42,11 @@ class DualUwbFilter : public Estimator {
   Belief<DualUwbState> carried(Belief<DualUwbState> belief, Stamp stamp) const;
   GyroInput gyroAt(Stamp stamp) const;
   IngestReport correctRange(Stamp stamp, const UwbReading& reading);
+  filters::Correction<1> corrected(const UwbReading& reading);
   void holdCourse(Stamp stamp);
+  bool allDisagree(Stamp stamp, Verdict verdict);
+  void doubtVelocity(Stamp stamp);
+  std::string_view wheelsAtOdds(Stamp stamp, double speed);
   void settle(Stamp stamp);
   std::string_view alarm(Stamp stamp);
   bool backwards(const DualUwbHypothesis& hypothesis, Stamp stamp) const;
@@ -66,10 +70,14 @@ class DualUwbFilter : public Estimator {
   double gyro_rate_ = 0.0;
   std::optional<Stamp> course_held_;
   std::optional<Stamp> backwards_since_;
+  std::optional<Stamp> applied_stamp_;  // of the last range that passed
+  int rejected_in_row_ = 0;
+  std::optional<Stamp> at_odds_since_;  // half of the anchors disagree while the wheels turn
   bool alarmed_ = false;
   int restarts_ = 0;
   int blockings_ = 0;
   int alarms_ = 0;
+  int doubts_ = 0;
 };
 
 }  // namespace pos::estimation
