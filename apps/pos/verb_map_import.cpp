@@ -73,13 +73,13 @@ Imported fromDxf(const ImportFiles& files) {
   if (!files.units.empty()) rules.metres_per_unit = unitOf(files.units);
   if (!files.grid_origin.empty()) rules.mine_grid = mineGridOf(files);
   io::DxfImport read = io::mapFromDxf(io::loadDxf(files.in), rules);
-  return {{.map = std::move(read.map)}, std::move(read.counts), std::move(read.remarks)};
+  return {{.map = std::move(read.map), .grid = {}}, std::move(read.counts), std::move(read.remarks)};
 }
 
 Imported fromTables(const ImportFiles& files) {
   const fs::path data = files.data.empty() ? fs::path(files.in).parent_path() : fs::path(files.data);
   io::TableMap read = io::mapFromTables(io::readTableMapping(files.in), data);
-  Imported imported{{.map = std::move(read.map)}};
+  Imported imported{{.map = std::move(read.map), .grid = {}}};
   if (read.stations > 0) imported.remarks.push_back(std::to_string(read.stations) + " stations read");
   return imported;
 }

@@ -71,7 +71,8 @@ AffineFit affineFit(const std::vector<map::ControlPoint>& points) {
     sum += fit.residuals.back() * fit.residuals.back();
   }
   fit.rms = n > 3 ? std::sqrt(sum / n) : 0.0;
-  fit.metres_per_pixel = std::sqrt(std::abs(fit.T_map_pixel.leftCols<2>().determinant()));
+  const auto& T = fit.T_map_pixel;
+  fit.metres_per_pixel = std::sqrt(std::abs(T(0, 0) * T(1, 1) - T(0, 1) * T(1, 0)));
   return fit;
 }
 

@@ -95,6 +95,24 @@ Eigen::Vector3d middleOfArc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, 
   return 0.5 * (a + b) + 0.5 * bulge * Eigen::Vector3d(chord.y(), -chord.x(), 0.0);
 }
 
+double distanceToLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d d = b - a;
+  const double f = d.squaredNorm() > 0.0 ? std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (p - a - f * d).norm();
+}
+
+/// An arc halved so often is a line but for a thousandth of its radius.
+constexpr int kArcHalvings = 5;
+
+double distanceToArc(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double bulge,
+                     const Eigen::Vector3d& p, int halvings) {
+  if (bulge == 0.0 || halvings == 0) return distanceToLine(a.head<2>(), b.head<2>(), p.head<2>());
+  const Eigen::Vector3d middle = middleOfArc(a, b, bulge);
+  const double half = std::tan(0.5 * std::atan(bulge));
+  return std::min(distanceToArc(a, middle, half, p, halvings - 1),
+                  distanceToArc(middle, b, half, p, halvings - 1));
+}
+
 }  // namespace
 
 std::vector<Chain> joined(const std::vector<Shape>& paths, double reach) {
@@ -146,19 +164,11 @@ CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices) {
 }
 
 double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p) {
-  double least = 1e300;
-  const auto toPiece = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    const Eigen::Vector2d d = b - a;
-    const double f =
-        d.squaredNorm() > 0.0 ? std::clamp((p.head<2>() - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
-    least = std::min(least, (p.head<2>() - a - f * d).norm());
-  };
+  double least = (vertices.front().p - p).head<2>().norm();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-    const Eigen::Vector3d middle = middleOfArc(vertices[i].p, vertices[i + 1].p, vertices[i].bulge);
-    toPiece(vertices[i].p.head<2>(), middle.head<2>());
-    toPiece(middle.head<2>(), vertices[i + 1].p.head<2>());
+    least =
+        std::min(least, distanceToArc(vertices[i].p, vertices[i + 1].p, vertices[i].bulge, p, kArcHalvings));
   }
-  if (vertices.size() == 1) least = (vertices.front().p - p).head<2>().norm();
   return least;
 }
 

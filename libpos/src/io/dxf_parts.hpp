@@ -60,7 +60,7 @@ struct CentrelineMade {
 };
 CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices);
 
-/// Distance in plan from a point to a chain of vertices, m.
+/// Distance in plan from a point to a chain of vertices (one or more), m.
 double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p);
 
 bool isChamber(DxfLayerKind kind);

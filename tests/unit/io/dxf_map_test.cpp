@@ -214,7 +214,7 @@ TEST(DxfMap, RandomCentrelinesComeBackWithinAMillimetre) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RandomStream random(seed, 11);
     map::TunnelMap mine = map::samples::randomMine(random, seed % 2 == 0);
-    const DxfImport import = mapFromDxf(parseDxf(mapDxf(mine), "own.dxf"), {.label_distance = 0.01});
+    const DxfImport import = mapFromDxf(parseDxf(mapDxf(mine), "own.dxf"), {.label_distance = 0.5});
     ASSERT_EQ(import.map.roadways.size(), mine.roadways.size()) << seed;
     for (std::size_t i = 0; i < mine.roadways.size(); ++i) {
       most = std::max(most, apart(import.map.roadways[i], mine.roadways[i]));
