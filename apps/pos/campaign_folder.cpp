@@ -66,16 +66,28 @@ void dropEarlier(const fs::path& folder) {
     const std::string name = entry.path().filename().string();
     if (entry.is_regular_file() && name.find(".json") != std::string::npos) fs::remove(entry.path());
   }
+  if (fs::is_empty(folder / "runs")) fs::remove(folder / "runs");
 }
 
-void requireSameCampaign(const fs::path& folder, const Manifest& manifest) {
-  if (fs::is_empty(folder)) return;
+/// Something in the folder that no campaign writes; another part may just be making the folder.
+std::optional<std::string> stranger(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "runs" && name.find(".part-") == std::string::npos) return name;
+  }
+  return std::nullopt;
+}
+
+void requireSameCampaign(const fs::path& folder, const Manifest& manifest, EarlierRuns earlier) {
   if (!fs::exists(folder / "manifest.json")) {
-    refuseFolder(folder, "the folder is not empty and holds no campaign",
-                 fs::directory_iterator(folder)->path().filename().string(), "name another folder");
+    const auto name = stranger(folder);
+    if (name && !fs::exists(folder / "manifest.json"))  // it may have come meanwhile
+      refuseFolder(folder, "the folder is not empty and holds no campaign", *name, "name another folder");
+    return;
   }
   const Manifest there = Manifest::read(folder);
   if (there.fingerprint() == manifest.fingerprint()) return;
+  if (earlier == EarlierRuns::Drop) return dropEarlier(folder);
   refuseFolder(folder, "the folder holds another campaign", "it differs in " + difference(there, manifest),
                "name another folder, or give --force to drop the runs in it");
 }
@@ -198,8 +210,7 @@ void openCampaignFolder(const fs::path& folder, const Manifest& manifest, Earlie
     if (fs::exists(folder) && !fs::is_directory(folder))
       refuseFolder(folder, "the folder of the campaign is a file", "a file", "name another folder");
     fs::create_directories(folder);
-    if (earlier == EarlierRuns::Drop && fs::exists(folder / "manifest.json")) dropEarlier(folder);
-    requireSameCampaign(folder, manifest);
+    requireSameCampaign(folder, manifest, earlier);
     fs::create_directories(folder / "runs");
   } catch (const fs::filesystem_error& error) {
     refuseFolder(folder, "cannot make the folder of the campaign", error.code().message(),

@@ -65,12 +65,14 @@ class RunRecords {
   std::map<std::uint64_t, std::string> texts_;
 };
 
+/// What to do with a folder that holds another campaign. Runs of the same one are always kept.
 enum class EarlierRuns {
-  Continue,  ///< keep those of the same campaign; ConfigError for a folder that holds anything else
-  Drop,      ///< remove the files of an earlier campaign
+  Continue,  ///< ConfigError
+  Drop,      ///< remove its files
 };
 
-/// Makes or takes over the folder and writes its manifest.
+/// Makes or takes over the folder and writes its manifest. Parts of one campaign may do so at the same time.
+/// Throws ConfigError also for a folder that holds anything but a campaign.
 void openCampaignFolder(const std::filesystem::path& folder, const Manifest& manifest, EarlierRuns earlier);
 
 /// campaign.json, campaign.csv, runs.csv, moments.csv, campaign.html.

@@ -62,7 +62,7 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
       std::find_if(left.begin(), left.end(), [](const std::string& w) { return w.starts_with("-"); });
   if (!left.empty()) return unknownWord(verb, option != left.end() ? *option : left.front());
   const std::vector<std::string> verbs = known(verb, false);
-  if (!verbs.empty()) {
+  if (!verbs.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     return spelt(verb) + " needs a verb\n  expected: one of: " + pos::io::text::joined(verbs) +
            "\n  try:      " + spelt(verb) + " --help";
   }

@@ -10,8 +10,6 @@
 namespace pos::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct MergeOptions {
   std::vector<std::string> folders;
   OutputOptions outputs;
@@ -36,14 +34,6 @@ Manifest commonManifest(const std::vector<std::string>& folders) {
   return first;
 }
 
-/// The result goes into a folder whose runs are merged: they must not be dropped first.
-bool isOneOf(const std::vector<std::string>& folders, const std::string& out) {
-  return std::any_of(folders.begin(), folders.end(), [&](const std::string& folder) {
-    std::error_code missing;
-    return fs::equivalent(folder, out, missing);
-  });
-}
-
 std::string runList(const std::vector<std::uint64_t>& runs) {
   std::string list;
   for (std::size_t i = 0; i < std::min<std::size_t>(runs.size(), 10); ++i)
@@ -51,37 +41,47 @@ std::string runList(const std::vector<std::uint64_t>& runs) {
   return list + (runs.size() > 10 ? ", ..." : "");
 }
 
-/// Copies every record into `into`; throws when one is missing that must be there.
-void gather(const Manifest& manifest, const MergeOptions& options, RunRecords& into) {
-  std::vector<std::unique_ptr<RunRecords>> parts;
-  for (const std::string& folder : options.folders) parts.push_back(std::make_unique<RunRecords>(folder));
+using Parts = std::vector<std::unique_ptr<RunRecords>>;
+
+/// The part that holds a run, the first of several; null where none does.
+const RunRecords* holderOf(const Parts& parts, std::uint64_t run) {
+  const auto part = std::find_if(parts.begin(), parts.end(), [run](const auto& p) { return p->has(run); });
+  return part == parts.end() ? nullptr : part->get();
+}
+
+void requireAllRuns(const Manifest& manifest, const Parts& parts, const std::string& place) {
   std::vector<std::uint64_t> missing;
   for (std::uint64_t run = 0; run < manifest.head.runs; ++run) {
-    const auto part = std::find_if(parts.begin(), parts.end(), [run](const auto& p) { return p->has(run); });
-    if (part == parts.end()) {
-      missing.push_back(run);
-    } else if (!into.has(run)) {
-      into.put(run, (*part)->text(run));
-    }
+    if (holderOf(parts, run) == nullptr) missing.push_back(run);
   }
-  if (missing.empty() || options.partial) return;
+  if (missing.empty()) return;
   throw DataError(Complaint{
       .what = std::to_string(missing.size()) + " of " + countText(manifest.head.runs) + " are missing",
-      .place = {.file = options.folders.front()},
+      .place = {.file = place},
       .got = "no record of run " + runList(missing),
       .suggestion = "give the command of that part again, it does the missing runs only; or merge what there "
                     "is with --partial"});
 }
 
+void gather(const Manifest& manifest, const Parts& parts, RunRecords& into) {
+  for (std::uint64_t run = 0; run < manifest.head.runs; ++run) {
+    const RunRecords* part = into.has(run) ? nullptr : holderOf(parts, run);
+    if (part != nullptr) into.put(run, part->text(run));
+  }
+}
+
 ExitCode runMerge(const MergeOptions& options, const Voice& voice) {
   const Manifest manifest = commonManifest(options.folders);
+  Parts parts;
+  for (const std::string& part : options.folders) parts.push_back(std::make_unique<RunRecords>(part));
+  if (!options.partial) requireAllRuns(manifest, parts, options.folders.front());
   const std::string& folder = options.outputs.folder;
-  const bool replace = options.outputs.force && !isOneOf(options.folders, folder);
-  if (!folder.empty())
-    openCampaignFolder(folder, manifest, replace ? EarlierRuns::Drop : EarlierRuns::Continue);
+  if (!folder.empty()) {
+    openCampaignFolder(folder, manifest, options.outputs.force ? EarlierRuns::Drop : EarlierRuns::Continue);
+  }
   const std::unique_ptr<RunRecords> records =
       folder.empty() ? std::make_unique<RunRecords>() : std::make_unique<RunRecords>(folder);
-  gather(manifest, options, *records);
+  gather(manifest, parts, *records);
   const eval::CampaignSummary campaign = summaryOfRuns(manifest, *records);
   tell(manifest, campaign, options.outputs, voice);
   judge(campaign, options.outputs, voice);

@@ -178,6 +178,9 @@ void addMap(const Verbs& verbs) {
   addMapCoverage(*verb, verbs);
   addMapPlanAnchors(*verb, verbs);
   addMapDiff(*verb, verbs);
+  addMapImport(*verb, verbs);
+  addMapExport(*verb, verbs);
+  addMapRender(*verb, verbs);
 }
 
 }  // namespace pos::app

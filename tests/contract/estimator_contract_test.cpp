@@ -25,6 +25,7 @@ struct Subject {
   bool uses_scans = false;
   bool two_tags = false;
   bool uses_gyro = false;
+  bool inertial = false;
 };
 
 const Eigen::Vector3d kFirstTag(0.1, 0.5, 1.0);
@@ -86,7 +87,11 @@ std::vector<Subject> subjects() {
   differential.variant = DualUwbConfig::Variant::Differential;
   DualUwbConfig rigid = dual;
   rigid.variant = DualUwbConfig::Variant::Rigid;
-  return {{"dual_uwb_filter", dual, false, true},
+  SinsDrConfig sins;  // the run starts in motion: it has to level itself on the way
+  sins.start = startAtTruth(StartMode::Known);
+  sins.odometer.track = 1.0;
+  return {{"sins_dr", sins, false, false, false, true},
+          {"dual_uwb_filter", dual, false, true},
           {"dual_uwb_filter_known", dual_known, false, true},
           {"dual_uwb_filter_biases", dual_biases, false, true},
           {"dual_uwb_filter_gyro", dual_gyro, false, true, true},
@@ -110,8 +115,10 @@ class EveryEstimator : public ::testing::TestWithParam<Subject> {
     return yardstick::makeAnyEstimator(GetParam().config, smallMap());
   }
   std::vector<Measurement> log(double duration = 6.0) const {
-    SmallRunOptions options{
-        .duration = duration, .scans = GetParam().uses_scans, .gyro = GetParam().uses_gyro};
+    SmallRunOptions options{.duration = duration,
+                            .scans = GetParam().uses_scans,
+                            .gyro = GetParam().uses_gyro,
+                            .inertial = GetParam().inertial};
     if (GetParam().two_tags) {
       options.tag_body = kFirstTag;
       options.second_tag = kSecondTag;

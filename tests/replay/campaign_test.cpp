@@ -64,8 +64,9 @@ TEST_F(Campaign, ResultsDoNotDependOnThreadsOrParts) {
   ASSERT_EQ(run({"--shard", "1/2", "--out", "a"}).exit_code, 0);
   EXPECT_EQ(bench_.read("a/campaign.json"), "") << "a part is not judged alone";
   expectRefusal({"campaign", "merge", "a", "--out", "merged"}, 5, "2 of 5 runs are missing");
+  EXPECT_FALSE(fs::exists(bench_.folder() / "merged"));
   ASSERT_EQ(run({"--shard", "2/2", "--out", "b"}).exit_code, 0);
-  const RunResult merge = bench_.pos({"campaign", "merge", "b", "a", "--out", "merged", "--force"});
+  const RunResult merge = bench_.pos({"campaign", "merge", "b", "a", "--out", "merged"});
   ASSERT_EQ(merge.exit_code, 0) << merge.err;
   expectSameResults("one", "merged");
 }
@@ -173,6 +174,25 @@ TEST_F(Campaign, FoldersOfDifferentCampaignsAreKeptApart) {
   bench_.write("one/runs/000001.json", bench_.read("other/runs/000001.json"));
   expectRefusal({"campaign", "merge", "one"}, 3, "belongs to another campaign");
   EXPECT_EQ(run({"--out", "other", "--force"}, "2").exit_code, 0);
+}
+
+// Needs no recording.
+TEST(CampaignOfAScenario, IsSimulatedAnewInEveryRunAndTheSameOnAnyThread) {
+  const Bench bench;
+  const std::string config = source("configs/experiments/double_lane_baseline.yaml").string();
+  const auto campaign = [&](const std::string& jobs, const std::string& folder) {
+    return bench.pos({"campaign", config, "--runs", "6", "--jobs", jobs, "--out", folder, "--require",
+                      "worst:rmse_xy<0.2", "--require", "max_rmse_xy<0.3"});
+  };
+  const RunResult one = campaign("1", "one");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  ASSERT_EQ(campaign("2", "two").exit_code, 0);
+  for (const char* file : kResults)
+    EXPECT_EQ(bench.read(std::string("one/") + file), bench.read(std::string("two/") + file));
+  const json all = json::parse(bench.read("one/campaign.json"));
+  EXPECT_FALSE(all.at("campaign").at("recorded").get<bool>());
+  const json& metrics = all.at("estimators").at("lively").at("metrics");
+  EXPECT_GT(metrics.at("errors.xy.rmse").at("std").get<double>(), 0.0) << "every run has noise of its own";
 }
 
 }  // namespace

@@ -117,13 +117,13 @@ RunResult Bench::posStopped(const std::vector<std::string>& arguments, const std
   RunResult result;
   bool sent = false;
   std::array<char, 4096> block{};
-  for (ssize_t n = 0; (n = read(reader, block.data(), block.size())) > 0;) {
+  for (ssize_t n = 0; (n = ::read(reader, block.data(), block.size())) > 0;) {
     result.err.append(block.data(), static_cast<std::size_t>(n));
     if (sent || result.err.find(words) == std::string::npos) continue;
-    kill(child, signal);
+    ::kill(child, signal);
     sent = true;
   }
-  close(reader);
+  ::close(reader);
   fs::remove(pipe);
   result.exit_code = exitCodeOf(child);
   return result;

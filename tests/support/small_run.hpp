@@ -3,12 +3,14 @@
 /// odometry, ranges and scans. Truth by formula; noise from explicit seeds. (The real simulator is module
 /// `sim`.)
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "pos/core/angle.hpp"
 #include "pos/core/measurement.hpp"
 #include "pos/core/random.hpp"
 #include "pos/map/tunnel_map.hpp"
@@ -33,6 +35,7 @@ struct SmallRunOptions {
   /// With a second tag both range to every anchor at one moment, instead of one anchor after another.
   std::optional<Eigen::Vector3d> second_tag = {};
   bool gyro = false;
+  bool inertial = false;  ///< a whole inertial unit at five times the odometry's rate
 };
 
 inline Stamp runStamp(double t) {
@@ -102,6 +105,21 @@ inline Scan2D scanAt(const map::OccupancyGrid& grid, const Pose2& pose, RandomSt
   return scan;
 }
 
+/// What a level inertial unit at the body's origin feels, by differences of the formula.
+inline ImuSample imuAt(double t) {
+  constexpr double h = 1e-3;
+  const Pose2 before = truthAt(t - h);
+  const Pose2 now = truthAt(t);
+  const Pose2 after = truthAt(t + h);
+  const Eigen::Vector2d acceleration =
+      (after.translation() - 2.0 * now.translation() + before.translation()) / (h * h);
+  const Eigen::Vector2d force = rotation2(-now.yaw) * acceleration;
+  ImuSample imu;
+  imu.angular.z() = wrapAngle(after.yaw - before.yaw) / (2.0 * h);
+  imu.linear = {force.x(), force.y(), 9.80665};
+  return imu;
+}
+
 /// All measurements, ordered by stamp. Ranges come one anchor after another between the odometry samples.
 inline std::vector<Measurement> smallRun(const SmallRunOptions& options) {
   RandomStream random(options.seed, 1);
@@ -120,6 +138,10 @@ inline std::vector<Measurement> smallRun(const SmallRunOptions& options) {
     odometry.interval = durationFromSeconds(dt);
     log.push_back({runStamp(t), "wheels", odometry});
 
+    if (options.inertial) {
+      for (int j = 1; j <= 5; ++j)
+        log.push_back({runStamp(t - dt + 0.2 * j * dt), "imu", imuAt(t - dt + (0.2 * j - 0.1) * dt)});
+    }
     if (options.gyro) {
       ImuSample imu;
       imu.angular.z() = wrapAngle(truthAt(t + 1e-3).yaw - truthAt(t - 1e-3).yaw) / 2e-3;
@@ -150,6 +172,9 @@ inline std::vector<Measurement> smallRun(const SmallRunOptions& options) {
     }
     if (options.scans && k % 5 == 0)
       log.push_back({runStamp(heard), "laser", scanAt(*map->grid, truthAt(heard), random)});
+  }
+  if (options.inertial) {
+    std::stable_sort(log.begin(), log.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
   }
   return log;
 }

@@ -28,30 +28,6 @@ bool isPlace(const DxfEntity& entity) {
   return entity.kind == Kind::Point || entity.kind == Kind::Circle || entity.kind == Kind::Symbol;
 }
 
-bool isChamber(DxfLayerKind kind) {
-  return kind == DxfLayerKind::PassingChamber || kind == DxfLayerKind::RefugeChamber;
-}
-
-std::string nameOf(DxfLayerKind kind) {
-  switch (kind) {
-    case DxfLayerKind::Roadway:
-      return "roadway";
-    case DxfLayerKind::Anchor:
-      return "anchor";
-    case DxfLayerKind::Portal:
-      return "portal";
-    default:
-      return isChamber(kind) ? "chamber" : "ignored";
-  }
-}
-
-/// Id without blanks.
-std::string idFrom(const std::string& label) {
-  std::string id = label;
-  std::replace(id.begin(), id.end(), ' ', '_');
-  return id;
-}
-
 class Import {
  public:
   Import(const DxfDrawing& drawing, const DxfImportRules& rules)
@@ -203,15 +179,9 @@ class Import {
 
   /// The last number in the label, or the next free one.
   AnchorId anchorId(const std::string& label) {
-    const std::size_t end = label.find_last_of("0123456789");
-    if (end != std::string::npos) {
-      std::size_t begin = end;
-      while (begin > 0 && label[begin - 1] >= '0' && label[begin - 1] <= '9') --begin;
-      const auto number = text::integer(std::string_view(label).substr(begin, end + 1 - begin));
-      if (number && *number <= 2'000'000'000 && anchor_ids_.insert(static_cast<AnchorId>(*number)).second)
-        return static_cast<AnchorId>(*number);
-    }
-    AnchorId next = anchor_ids_.empty() ? 1 : *anchor_ids_.rbegin() + 1;
+    const auto number = lastNumber(label);
+    if (number && anchor_ids_.insert(*number).second) return *number;
+    const AnchorId next = anchor_ids_.empty() ? 1 : *anchor_ids_.rbegin() + 1;
     anchor_ids_.insert(next);
     result_.remarks.push_back("anchor " + (label.empty() ? "without a name" : "'" + label + "'") +
                               " has no number of its own and became id " + std::to_string(next));
@@ -227,16 +197,6 @@ class Import {
     ledger_.used(*object.entities.front(), "anchor");
   }
 
-  static Eigen::Vector3d middleOf(const std::vector<DxfVertex>& vertices) {
-    Eigen::Vector3d low = vertices.front().p;
-    Eigen::Vector3d high = low;
-    for (const DxfVertex& vertex : vertices) {
-      low = low.cwiseMin(vertex.p);
-      high = high.cwiseMax(vertex.p);
-    }
-    return 0.5 * (low + high);
-  }
-
   std::optional<NearestPlace> placeOf(const Named& object) {
     const auto place =
         nearestRoadway(result_.map.roadways, middleOf(object.vertices), rules_.roadway_near, 10.0);
@@ -248,11 +208,10 @@ class Import {
     const auto near = placeOf(object);
     if (!near) return;
     const map::Roadway& roadway = result_.map.roadways[near->roadway];
-    const map::Centreline line(roadway);
     map::Chamber chamber = rules_.chamber;
     chamber.side = near->offset >= 0.0 ? map::Side::Left : map::Side::Right;
     chamber.place = {roadway.id, near->chainage};
-    if (object.vertices.size() > 1) measure(object, roadway, line, chamber);
+    if (object.vertices.size() > 1) chamber = measured(std::move(chamber), object.vertices, roadway);
     chamber.kind =
         object.kind == DxfLayerKind::RefugeChamber ? map::Chamber::Kind::Refuge : map::Chamber::Kind::Passing;
     const std::string wanted =
@@ -261,21 +220,6 @@ class Import {
     if (!object.label.empty() && chamber.id != object.label) chamber.name = object.label;
     result_.map.chambers.push_back(std::move(chamber));
     ledger_.used(*object.entities.front(), "chamber");
-  }
-
-  /// Length along the roadway and depth behind the wall of a drawn outline.
-  static void measure(const Named& object, const map::Roadway& roadway, const map::Centreline& line,
-                      map::Chamber& chamber) {
-    double from = 1e300, to = -1e300, farthest = 0.0;
-    for (const DxfVertex& vertex : object.vertices) {
-      const map::Centreline::Foot foot = line.foot(vertex.p);
-      from = std::min(from, foot.chainage);
-      to = std::max(to, foot.chainage);
-      farthest = std::max(farthest, std::abs(foot.offset));
-    }
-    chamber.place.chainage = 0.5 * (from + to);
-    chamber.length = to - from;
-    chamber.depth = std::max(0.0, farthest - 0.5 * roadway.width);
   }
 
   void makePortal(const Named& object) {
@@ -322,22 +266,6 @@ class Import {
 };
 
 }  // namespace
-
-namespace dxf {
-
-void Ledger::add(const std::string& layer, const std::string& type, const std::string& what,
-                 std::size_t count, bool used) {
-  DxfCount& entry = found_[layer + '\n' + type + '\n' + what + (used ? "\n1" : "\n0")];
-  entry = {layer, type, what, entry.count + count, used};
-}
-
-std::vector<DxfCount> Ledger::list() const {
-  std::vector<DxfCount> all;
-  for (const auto& [key, entry] : found_) all.push_back(entry);
-  return all;
-}
-
-}  // namespace dxf
 
 DxfImport mapFromDxf(const DxfDrawing& drawing, const DxfImportRules& rules) {
   DxfImport result = Import(drawing, rules).run();

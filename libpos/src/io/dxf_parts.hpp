@@ -63,4 +63,16 @@ CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices);
 /// Distance in plan from a point to a chain of vertices, m.
 double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p);
 
+bool isChamber(DxfLayerKind kind);
+/// "roadway", "anchor", "chamber", "portal", "ignored".
+std::string nameOf(DxfLayerKind kind);
+/// An id without blanks.
+std::string idFrom(const std::string& label);
+/// "UWB-017" -> 17.
+std::optional<AnchorId> lastNumber(const std::string& label);
+Eigen::Vector3d middleOf(const std::vector<DxfVertex>& vertices);
+/// The chamber with place, length along the roadway and depth behind the wall of a drawn outline.
+map::Chamber measured(map::Chamber chamber, const std::vector<DxfVertex>& vertices,
+                      const map::Roadway& roadway);
+
 }  // namespace pos::io::dxf

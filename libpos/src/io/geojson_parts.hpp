@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "pos/io/map_geojson.hpp"
+#include "pos/io/yaml_document.hpp"
 #include "pos/map/centreline.hpp"
 
 namespace pos::io::geojson {
@@ -45,5 +46,30 @@ class Shapes {
   const map::TunnelMap& map_;
   std::vector<map::Centreline> lines_;
 };
+
+/// One feature on its way into the map's tree.
+struct Feature {
+  std::string name;                  ///< "features[3] (chamber C1)"
+  const ObjectKind* kind = nullptr;  ///< null for the map itself
+  const YamlNode* geometry = nullptr;
+  YamlNode object;        ///< as the map file has it
+  bool computed = false;  ///< its chainage has to come from its point
+};
+
+/// A ConfigError about a node of the file.
+[[noreturn]] void refuse(const std::string& what, const YamlNode& node, const std::string& key,
+                         const std::string& expected, const std::string& suggestion = {});
+/// A member that has to be there.
+const YamlNode& member(const YamlNode& table, const char* name, const std::string& key, const char* expected);
+/// Refuses members that are not among `known`.
+void requireMembers(const YamlNode& table, const std::string& key, const std::vector<std::string>& known);
+/// Refuses an object of another type.
+void requireType(const YamlNode& table, const std::string& key, const char* type);
+/// Whether objects of this list have one point that may give their chainage.
+bool isPointObject(std::string_view list);
+/// The point of a feature, m.
+Eigen::Vector3d pointOf(const Feature& feature);
+/// `index` counts features from 0.
+Feature featureOf(const YamlNode& node, std::size_t index);
 
 }  // namespace pos::io::geojson

@@ -60,7 +60,8 @@ std::string worstSection(const eval::CampaignSummary& campaign) {
       rows +=
           rowHead(estimator.name) + leftCell(metricTitle(metric)) +
           cells({rounded(found->second.worst), rounded(found->second.median), std::to_string(worst.run)}) +
-          "<td style=\"text-align:left\"><code>" + escaped(worst.repeat) + "</code></td></tr>\n";
+          "<td style=\"text-align:left;white-space:normal;overflow-wrap:anywhere\"><code>" +
+          escaped(worst.repeat) + "</code></td></tr>\n";
     }
   }
   if (rows.empty()) return "";

@@ -12,7 +12,7 @@ using eval::PairedComparison;
 
 constexpr double kRowHeight = 26.0;
 constexpr double kLabel = 150.0;
-constexpr double kWords = 330.0;
+constexpr double kWords = 300.0;
 
 struct Group {
   std::string estimator;
@@ -36,8 +36,7 @@ std::string signedPercent(double share) {
 std::string words(const PairedComparison& pair) {
   const std::string outcome = pair.undecided() ? "undecided" : pair.change < 0.0 ? "better" : "worse";
   return signedPercent(pair.change) + " [" + fixed(100.0 * pair.change_bounds.low, 1) + ".." +
-         fixed(100.0 * pair.change_bounds.high, 1) + "], " + outcome + ", smaller in " +
-         percent(pair.better_share) + " of runs";
+         fixed(100.0 * pair.change_bounds.high, 1) + "], " + outcome;
 }
 
 void drawPair(Svg& svg, const Plot& plot, double y, const PairedComparison& pair) {
@@ -48,6 +47,7 @@ void drawPair(Svg& svg, const Plot& plot, double y, const PairedComparison& pair
   svg.rect({plot.x(low), y - 3.0, std::max(2.0, plot.x(high) - plot.x(low)), 6.0}, looks);
   svg.circle({plot.x(std::clamp(100.0 * pair.change, plot.x.low, plot.x.high)), y}, 4.5, looks);
   svg.text({plot.box.right() + 10.0, y + 4.0}, words(pair), "start small");
+  svg.text({kFigureWidth - 12.0, y + 4.0}, percent(pair.better_share), "end small");
 }
 
 }  // namespace
@@ -90,6 +90,8 @@ std::optional<NamedFigure> pairFigure(const eval::CampaignSummary& campaign) {
       y += kRowHeight;
     }
   }
+  svg.text({box.right() + 10.0, box.top - 8.0}, "change [95 %]", "start small muted");
+  svg.text({kFigureWidth - 12.0, box.top - 8.0}, "runs won", "end small muted");
   svg.rect(box, "frame");
   return NamedFigure{
       "pairs", title,

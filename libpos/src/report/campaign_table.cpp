@@ -123,14 +123,14 @@ std::optional<double> bestCost(const Column& column, const std::vector<Estimator
 std::string aneesWarning(const EstimatorOverRuns& e) {
   const eval::AneesOverTime& anees = e.anees_xy;
   if (anees.moments == 0) return "";
-  const std::string figures = " (mean ANEES " + rounded(anees.mean) + ", honest would be 2).";
-  if (anees.above > 0.1 && anees.above >= anees.below) {
-    return e.name + " is too sure of itself at " + percent(anees.above) + " of the moments" + figures;
-  }
+  std::string what;
+  if (anees.above > 0.1) what = "too sure of itself at " + percent(anees.above);
   if (anees.below > 0.1) {
-    return e.name + " is too cautious at " + percent(anees.below) + " of the moments" + figures;
+    what += (what.empty() ? "" : " and ") + std::string("too cautious at ") + percent(anees.below);
   }
-  return "";
+  return what.empty() ? ""
+                      : e.name + " is " + what + " of the moments (mean ANEES " + rounded(anees.mean) +
+                            ", honest would be 2).";
 }
 
 std::vector<std::string> estimatorWarnings(const EstimatorOverRuns& e, std::size_t runs) {
@@ -156,6 +156,7 @@ std::vector<std::string> estimatorWarnings(const EstimatorOverRuns& e, std::size
 }  // namespace
 
 std::string metricTitle(const std::string& metric) {
+  if (metric == "consistency.nees_xy_mean") return "NEES xy";
   if (!metric.starts_with("errors.")) return metric;
   const std::size_t dot = metric.rfind('.');
   const std::string component = metric.substr(7, dot - 7);

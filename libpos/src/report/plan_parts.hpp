@@ -93,7 +93,6 @@ class Sheet {
   std::vector<Label> labels_;
 };
 
-/// The index of the roadway of an anchor is not in the map: the nearest shown one.
 void drawRoadways(Sheet& sheet);
 void drawIntervals(Sheet& sheet);
 void drawCrossings(Sheet& sheet);
@@ -105,6 +104,9 @@ void drawMargins(Sheet& sheet);
 /// Height of what drawMargins puts above and below the frame, px.
 double titleHeight(double width);
 double legendHeight(const map::TunnelMap& map, const PlanOptions& options, double width);
+
+/// Around the drawing's own origin; `width` in px before the margins are enlarged.
+void drawLegend(Drawing& drawing, const Sheet& sheet, double width, double top);
 
 /// Strips of intervals on one stretch of a roadway; `from` and `to` cut them off.
 void drawIntervalStrips(Sheet& sheet, map::RoadwayIndex roadway, double from, double to);

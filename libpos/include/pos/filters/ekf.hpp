@@ -84,6 +84,13 @@ Gain gain(const Gain& G, const Factor& S_factor) {
 }
 }  // namespace detail
 
+/// nu' S^-1 nu of a reading, without taking it.
+template <Manifold X, int M>
+double normalisedSquare(const Belief<X>& belief, const Innovation<X, M>& innovation, const Matrix<M, M>& R) {
+  const Matrix<M, M> S = innovation.H * belief.covariance * innovation.H.transpose() + R;
+  return innovation.nu.dot(S.llt().solve(innovation.nu));
+}
+
 /// Corrects the belief by one reading. The belief is untouched unless the verdict is Applied: Gated when
 /// nu' S^-1 nu exceeds the gate, Degenerate when S is not positive definite or a number is not finite.
 /// Covariance in Joseph's form, P <- (I - K H) P (I - K H)' + K R K', written out so that it costs O(M n^2):
