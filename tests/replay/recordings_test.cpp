@@ -87,6 +87,8 @@ TEST(Table, EveryConfigurationHasItsFigures) {
     ++configs;
     const std::string run =
         fs::relative(entry.path(), source("configs")).replace_extension().generic_string();
+    // without estimators: tests/unit/io/scenario_files_test.cpp runs every one of them
+    if (run.starts_with("scenarios/") || run.starts_with("vehicles/")) continue;
     EXPECT_TRUE(known.contains(run)) << "no row of tests/replay/expected.csv judges configs/" << run
                                      << ".yaml";
   }

@@ -79,6 +79,10 @@ TEST_F(Simulate, AReplayNeedsNoLogBetween) {
   EXPECT_NE(at(direct, figure), at(other, figure)) << "the run's seed is the simulation's";
 }
 
+TEST_F(Simulate, TheCircleKeepsItsFigures) {
+  expectFigures("simulation/circle", {replayed(bench_, {config_})});
+}
+
 TEST_F(Simulate, AReportIsMadeAgainFromTheScenario) {
   expectOk({"replay", config_, "--set", "scenario.duration_s=20", "--out", "run", "-q"});
   const json run = json::parse(bench_.read("run/run.json"));

@@ -30,8 +30,10 @@ OptionTable<Outline> outlineOptions() {
 OptionTable<RockConfig> rockOptions() {
   return OptionTable<RockConfig>("rock", "What stands between tags and anchors.")
       .choice("source", &RockConfig::source,
-              {{"none", RockConfig::Source::None}, {"outlines", RockConfig::Source::Outlines}},
-              "Nothing, or the walls of the open spaces listed here.")
+              {{"none", RockConfig::Source::None},
+               {"outlines", RockConfig::Source::Outlines},
+               {"roadways", RockConfig::Source::Roadways}},
+              "Nothing, the walls of the open spaces listed here, or all rock beside the map's roadways.")
       .list("open_spaces", &RockConfig::open_spaces, outlineOptions(), "Open spaces, for outlines.");
 }
 

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "pos/core/error.hpp"
+#include "pos/map/network.hpp"
 
 namespace pos::sim {
 namespace {
@@ -38,8 +39,14 @@ auto under(const std::string& key, Rule rule) {
   throw ConfigError(Complaint{.what = what, .key = key, .suggestion = suggestion});
 }
 
-LineOfSight lineOfSight(const RockConfig& rock) {
+LineOfSight lineOfSight(const RockConfig& rock, const std::shared_ptr<const map::TunnelMap>& map) {
   if (rock.source == RockConfig::Source::None) return {};
+  if (rock.source == RockConfig::Source::Roadways) {
+    if (map->roadways.empty()) refuse("the map has no roadways", "rock.source", "use outlines, or none");
+    return [network = map::Network(map)](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+      return network.inSight(p, q);
+    };
+  }
   RockPlan plan;
   for (const Outline& outline : rock.open_spaces) plan = plan.joined(RockPlan::around(outline));
   return plan.predicate();
@@ -198,7 +205,7 @@ SensorSite sensorSite(const Scenario& scenario, std::shared_ptr<const map::Tunne
   site.motion = std::make_shared<TimedMotion>(site.motion, site.duration);
   site.earth = std::make_shared<const Earth>(onMap(scenario.earth, *map));
   if (map->grid) site.grid = {map, &*map->grid};
-  site.line_of_sight = lineOfSight(scenario.rock);
+  site.line_of_sight = lineOfSight(scenario.rock, map);
   site.vehicle = scenario.vehicle;
   site.run = {.start = stampFromSeconds(scenario.start), .seed = seed};
   site.map = std::move(map);

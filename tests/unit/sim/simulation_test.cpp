@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "pos/core/error.hpp"
 #include "pos/sim/scenario.hpp"
@@ -120,6 +121,22 @@ TEST(Simulation, WallsBetweenTagAndAnchorSilenceIt) {
   walled.rock = {.source = RockConfig::Source::Outlines,
                  .open_spaces = {{{-5.0, -2.0}, {15.0, -2.0}, {15.0, 2.0}, {-5.0, 2.0}}}};
   EXPECT_TRUE(of(all(Simulation(walled, anchors(), 1)), "uwb").empty());
+}
+
+TEST(Simulation, RoadwaysOfTheMapLetRangesThroughAndRockBesideThemDoesNot) {
+  map::TunnelMap mine = *anchors();
+  mine.name = "mine";
+  map::Roadway roadway{.id = "level", .width = 7.0};
+  roadway.centreline = {{.p_map = {-5.0, 0.0, 0.0}}, {.p_map = {30.0, 0.0, 0.0}}};
+  mine.roadways = {roadway};
+  mine.anchors.push_back({.id = 8, .name = "B", .p_map = {5.0, 20.0, 2.0}});
+  Scenario rocky = scenario();
+  rocky.rock.source = RockConfig::Source::Roadways;
+  std::map<AnchorId, int> heard;
+  for (const Delivery& d : of(all(Simulation(rocky, std::make_shared<const map::TunnelMap>(mine), 1)), "uwb"))
+    ++heard[std::get<BeaconRange>(d.measurement.reading).anchor];
+  EXPECT_EQ(heard, (std::map<AnchorId, int>{{7, 101}})) << "8 stands in the rock";
+  EXPECT_THROW(all(Simulation(rocky, anchors(), 1)), ConfigError) << "a map without roadways";
 }
 
 TEST(Simulation, WhatMapAndSensorsCannotServeIsRefusedByKey) {

@@ -43,6 +43,7 @@ struct RockConfig {
   enum class Source {
     None,      ///< everything is in sight
     Outlines,  ///< the outlines below
+    Roadways,  ///< everything beside the roadways and chambers of the map
   };
   Source source = Source::None;
   std::vector<Outline> open_spaces = {};  ///< outlines of the open spaces, their walls block
