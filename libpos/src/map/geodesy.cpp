@@ -17,12 +17,12 @@ Eigen::Vector3d LocalFrame::fromGeodetic(double latitude, double longitude, doub
   Eigen::Vector3d enu;
   cartesian(origin_).Forward(degrees(latitude), degrees(longitude), altitude, enu.x(), enu.y(), enu.z());
   enu.head<2>() = rotation2(-origin_.grid_rotation) * enu.head<2>();
-  return enu;
+  return origin_.p_map + enu;
 }
 
 GeodeticOrigin LocalFrame::toGeodetic(const Eigen::Vector3d& p_map) const {
-  Eigen::Vector3d enu = p_map;
-  enu.head<2>() = rotation2(origin_.grid_rotation) * p_map.head<2>();
+  Eigen::Vector3d enu = p_map - origin_.p_map;
+  enu.head<2>() = rotation2(origin_.grid_rotation) * enu.head<2>();
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
   GeodeticOrigin point;

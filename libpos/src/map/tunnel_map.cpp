@@ -1,59 +1,44 @@
 #include "pos/map/tunnel_map.hpp"
 
-#include <cmath>
-#include <set>
-
-#include "pos/core/error.hpp"
+#include <Eigen/Geometry>
 
 namespace pos::map {
 namespace {
 
-void check(const Anchor& anchor) {
-  const std::string key = "anchors[id " + std::to_string(anchor.id) + "]";
-  if (!anchor.p_map.allFinite()) {
-    throw ConfigError(Complaint{.what = "anchor has a coordinate that is no number",
-                                .key = key,
-                                .expected = "x_m, y_m, z_m in metres",
-                                .suggestion = "look up the anchor in the survey"});
+template <class Object, class Id>
+const Object* found(const std::vector<Object>& objects, const Id& id) {
+  for (const Object& object : objects) {
+    if (object.id == id) return &object;
   }
-  if (!(anchor.survey_sigma >= 0.0) || !std::isfinite(anchor.survey_sigma)) {
-    throw ConfigError(Complaint{.what = "anchor has a bad survey sigma",
-                                .key = key + ".survey_sigma_m",
-                                .got = std::to_string(anchor.survey_sigma),
-                                .expected = ">= 0 m"});
-  }
-}
-
-void check(const OccupancyGrid& grid) {
-  const auto cells = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-  if (grid.columns <= 0 || grid.rows <= 0 || !(grid.resolution > 0.0) || grid.occupancy.size() != cells) {
-    throw ConfigError(Complaint{.what = "the grid's cells do not match its size", .key = "grid"});
-  }
+  return nullptr;
 }
 
 }  // namespace
 
 const Anchor* TunnelMap::findAnchor(AnchorId id) const {
-  for (const Anchor& anchor : anchors) {
-    if (anchor.id == id) return &anchor;
-  }
-  return nullptr;
+  return found(anchors, id);
+}
+const Roadway* TunnelMap::findRoadway(const std::string& id) const {
+  return found(roadways, id);
+}
+const Chamber* TunnelMap::findChamber(const std::string& id) const {
+  return found(chambers, id);
+}
+const Junction* TunnelMap::findJunction(const std::string& id) const {
+  return found(junctions, id);
+}
+const Route* TunnelMap::findRoute(const std::string& id) const {
+  return found(routes, id);
 }
 
-TunnelMap validated(TunnelMap map) {
-  std::set<AnchorId> seen;
-  for (const Anchor& anchor : map.anchors) {
-    check(anchor);
-    if (!seen.insert(anchor.id).second) {
-      throw ConfigError(Complaint{.what = "two anchors have the same id",
-                                  .key = "anchors",
-                                  .got = "id " + std::to_string(anchor.id),
-                                  .expected = "every id once",
-                                  .suggestion = "give one of the two its own id"});
-    }
-  }
-  if (map.grid) check(*map.grid);
-  return map;
+Eigen::Vector3d toGrid(const MineGrid& grid, const Eigen::Vector3d& p_map) {
+  const Eigen::AngleAxisd turn(grid.rotation, Eigen::Vector3d::UnitZ());
+  return Eigen::Vector3d(grid.easting, grid.northing, grid.elevation) + turn * p_map;
+}
+
+Eigen::Vector3d fromGrid(const MineGrid& grid, const Eigen::Vector3d& p_grid) {
+  const Eigen::AngleAxisd turn_back(-grid.rotation, Eigen::Vector3d::UnitZ());
+  return turn_back * (p_grid - Eigen::Vector3d(grid.easting, grid.northing, grid.elevation));
 }
 
 }  // namespace pos::map

@@ -55,14 +55,17 @@ class Centreline {
   CentrelineState at(double chainage) const;
   /// The segment that holds this chainage; the first or last one past an end.
   std::size_t segmentAt(double chainage) const;
-  /// The point on the floor's centre nearest in plan. `beyond` of the foot is past the whole centreline.
+
+  /// Where a point lies as seen from the centreline.
   struct Foot {
-    double chainage = 0.0;
-    double offset = 0.0;
-    double height = 0.0;
-    double beyond = 0.0;
+    double chainage = 0.0;  ///< m, of the point of the centreline that is nearest in plan
+    double offset = 0.0;    ///< m, positive to the left; at a kink the whole distance in plan
+    double height = 0.0;    ///< m, above the floor there
+    double beyond = 0.0;    ///< m, along the tangent past the first or last point
   };
   Foot foot(const Eigen::Vector3d& p_map) const;
+  /// As seen from one of the segments.
+  Foot footOnSegment(std::size_t segment, const Eigen::Vector3d& p_map) const;
 
  private:
   std::vector<CentrelineSegment> segments_;

@@ -41,7 +41,8 @@ class Network {
   /// Map coordinates. A chainage past an end continues along the end's tangent.
   Eigen::Vector3d toMap(const TunnelPoint& point) const;
 
-  /// Whether the point is in a roadway (true section shape), a chamber or within `slack` (m) of one.
+  /// Whether the point is in a roadway (true section shape), a chamber or within `slack` (m) of one. In a map
+  /// without roadways nothing is known of rock, and every point is inside and every line in sight.
   bool isInside(const Eigen::Vector3d& p_map, double slack = 0.0) const;
 
   /// Whether the straight line from `a` to `b` stays in roadways, chambers and a skin of `slack` (m) around
