@@ -49,4 +49,30 @@ inline map::TunnelMap randomMine(std::uint64_t seed, int roadways, int points) {
   return mine;
 }
 
+/// A square field of n + n roadways, 200 m long and 50 m apart; every roadway reaches past its last crossing
+/// on both sides. Some go one way.
+inline map::TunnelMap gridMine(std::uint64_t seed, int n) {
+  RandomStream random(seed, 5);
+  map::TunnelMap mine{.name = "grid"};
+  for (int i = 0; i < n; ++i) {
+    const double at = 25.0 + 50.0 * i;
+    mine.roadways.push_back(straightRoadway("H" + std::to_string(i), {0, at, 0}, {200, at, 0}));
+    mine.roadways.push_back(straightRoadway("V" + std::to_string(i), {at, 0, 0}, {at, 200, 0}));
+  }
+  for (map::Roadway& roadway : mine.roadways) {
+    const double u = random.uniform();
+    roadway.traffic = u < 0.6   ? map::Traffic::BothWays
+                      : u < 0.8 ? map::Traffic::ForwardOnly
+                                : map::Traffic::BackwardOnly;
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const std::string h = "H" + std::to_string(i);
+      const std::string v = "V" + std::to_string(j);
+      mine.junctions.push_back({.id = h + v, .places = {{h, 25.0 + 50.0 * j}, {v, 25.0 + 50.0 * i}}});
+    }
+  }
+  return mine;
+}
+
 }  // namespace pos::test

@@ -29,7 +29,8 @@ struct PlaceOnRoute {
 /// A way through the mine without gaps.
 class RouteLine {
  public:
-  explicit RouteLine(std::vector<DrivenStretch> legs);
+  /// Legs that follow each other on one roadway become one. Throws ConfigError when there is none.
+  explicit RouteLine(const std::vector<DrivenStretch>& legs);
   /// Throws ConfigError for a roadway that is unknown.
   RouteLine(const Network& network, const Route& route);
 
@@ -73,12 +74,22 @@ class RoadGraph {
   /// The edge that holds the place; nothing off the roadway's ends.
   std::optional<std::size_t> edgeAt(RoadwayIndex roadway, double chainage) const;
   bool allows(std::size_t edge, Direction direction) const;
+  /// Whether no zone of kind NoEntry touches the stretch.
+  bool isOpen(const DrivenStretch& stretch) const;
 
   /// Shortest way that keeps to the one-way rules (restricted zones of kind NoEntry are closed); nothing when
   /// there is none. A vehicle may start either way and does not turn round on the way. O(edges log edges).
   std::optional<RouteLine> shortestRoute(const TunnelPoint& start, const TunnelPoint& goal) const;
 
  private:
+  struct NodePlace {
+    double chainage = 0.0;
+    std::size_t node = 0;
+  };
+  using NodePlaces = std::vector<std::vector<NodePlace>>;  ///< of each roadway
+  NodePlaces withJunctionsAndPortals(const Network& network);
+  void addEdges(const Network& network, RoadwayIndex roadway, std::vector<NodePlace> places);
+
   std::vector<GraphNode> nodes_;
   std::vector<GraphEdge> edges_;
   std::vector<std::vector<std::size_t>> edges_of_;
