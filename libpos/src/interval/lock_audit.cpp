@@ -20,8 +20,10 @@ void LockAudit::take(const LockEvent& event, const std::vector<LockRecord>& reco
   if (event.stamp < now_) find(-1, "stamps go back");
   now_ = std::max(now_, event.stamp);
   trespassed_.clear();
-  rejected_ = std::any_of(records.begin(), records.end(), [](const LockRecord& r) { return r.kind == Kind::Rejected; });
+  rejected_ = std::any_of(records.begin(), records.end(),
+                          [](const LockRecord& r) { return r.kind == Kind::Rejected; });
   tally_.rejected += rejected_ ? 1 : 0;
+  for (auto& [id, v] : seen_) v.heard_before = v.heard;
   if (!rejected_) note(event);
   for (const LockRecord& record : records) check(event, record);
   checkWhole(event, records);
@@ -47,6 +49,13 @@ void LockAudit::note(const Request& e) {
 void LockAudit::note(const Report& e) {
   seen_[e.vehicle].report = e;
   seen_[e.vehicle].heard = now_;
+}
+void LockAudit::note(const Parked& e) {
+  Seen& v = seen_[e.vehicle];
+  v.on_road = v.doubted = false;
+  v.report.reset();
+  v.stop = e.stop;
+  if (e.stop + 1 == v.way.stops.size()) v.way = {};
 }
 void LockAudit::note(const Restart&) {
   ++tally_.restarts;
@@ -74,25 +83,38 @@ void LockAudit::note(const Announce& e) {
 void LockAudit::check(const LockEvent& event, const LockRecord& record) {
   Seen& v = seen_[record.vehicle];
   switch (record.kind) {
-    case Kind::Locked: locked(record); break;
-    case Kind::Released: released(event, record); break;
-    case Kind::Granted: granted(record); break;
+    case Kind::Locked:
+      locked(record);
+      break;
+    case Kind::Released:
+      released(event, record);
+      break;
+    case Kind::Granted:
+      granted(record);
+      break;
     case Kind::SlotTaken:
-    case Kind::SlotFreed: slot(record); break;
+    case Kind::SlotFreed:
+      slot(record);
+      break;
     case Kind::Doubted:
       v.doubted = true;
       ++tally_.doubts;
       break;
-    case Kind::Trusted: v.doubted = false; break;
+    case Kind::Trusted:
+      v.doubted = false;
+      break;
     case Kind::Stale:
       ++tally_.stale;
-      if (seconds(now_ - v.heard) <= rules_.stale_after) find(record.vehicle, "called stale too early");
+      if (seconds(now_ - v.heard_before) <= rules_.stale_after)
+        find(record.vehicle, "called stale too early");
       break;
     case Kind::Trespass:
       ++tally_.trespasses;
       trespassed_.push_back(record.section);
       break;
-    case Kind::Overridden: ++tally_.overrides; break;
+    case Kind::Overridden:
+      ++tally_.overrides;
+      break;
     case Kind::Proven:
       if (!missing_.empty()) find(missing_.front(), "proven although this vehicle has not announced itself");
       break;
@@ -100,20 +122,23 @@ void LockAudit::check(const LockEvent& event, const LockRecord& record) {
     case Kind::Alarmed:
     case Kind::AlarmOver:
     case Kind::Restarted:
-    case Kind::Rejected: break;
+    case Kind::Rejected:
+      break;
   }
   seen_.erase(-1);
 }
 
 void LockAudit::locked(const LockRecord& record) {
   ++tally_.locks;
-  const bool trespass = std::find(trespassed_.begin(), trespassed_.end(), record.section) != trespassed_.end();
+  const bool trespass =
+      std::find(trespassed_.begin(), trespassed_.end(), record.section) != trespassed_.end();
   for (const auto& [id, other] : seen_) {
     if (id == record.vehicle || trespass) continue;
     const auto [first, last] = other.held.equal_range(record.section);
     for (auto h = first; h != last; ++h) {
       if (h->second != record.movement)
-        find(record.vehicle, "opposes vehicle " + std::to_string(id) + " on " + site_->sections[record.section].id);
+        find(record.vehicle,
+             "opposes vehicle " + std::to_string(id) + " on " + site_->sections[record.section].id);
     }
   }
   seen_[record.vehicle].held.emplace(record.section, record.movement);
@@ -126,7 +151,8 @@ void LockAudit::released(const LockEvent& event, const LockRecord& record) {
   const auto mine = std::find_if(first, last, [&](const auto& h) { return h.second == record.movement; });
   if (mine == last) return find(record.vehicle, "releases what it does not hold");
   v.held.erase(mine);
-  if (const auto* parked = std::get_if<Parked>(&event.what); parked && parked->vehicle == record.vehicle) return;
+  if (const auto* parked = std::get_if<Parked>(&event.what); parked && parked->vehicle == record.vehicle)
+    return;
   if (const auto* order = std::get_if<Override>(&event.what);
       order && order->vehicle == record.vehicle && !order->who.empty() && !order->why.empty())
     return;
@@ -136,7 +162,8 @@ void LockAudit::released(const LockEvent& event, const LockRecord& record) {
   checkClear(record, *report);
 }
 
-/// The rear has to be clear of the section by the footprint and the hysteresis, on a position worth believing.
+/// The rear has to be clear of the section by the footprint and the hysteresis, on a position worth
+/// believing.
 void LockAudit::checkClear(const LockRecord& record, const Report& report) {
   Seen& v = seen_[record.vehicle];
   if (report.integrity == Report::Integrity::Alarm) find(record.vehicle, "releases during an alarm");
@@ -146,7 +173,8 @@ void LockAudit::checkClear(const LockRecord& record, const Report& report) {
   const bool clear = std::any_of(v.way.sections.begin(), v.way.sections.end(), [&](const WaySection& s) {
     return s.section == record.section && s.movement == record.movement && s.to <= rear - hysteresis + 1e-9;
   });
-  if (!clear) find(record.vehicle, "releases " + site_->sections[record.section].id + " before its rear has cleared");
+  if (!clear)
+    find(record.vehicle, "releases " + site_->sections[record.section].id + " before its rear has cleared");
   if (v.cleared && report.evidence == Report::Evidence::Estimate) {
     const double reach = v.shape.max_speed * seconds(now_ - v.cleared->first) +
                          rules_.jump_sigmas * (report.sigma + v.cleared->second.sigma);
@@ -166,18 +194,22 @@ void LockAudit::granted(const LockRecord& record) {
     tally_.waits.push_back(seconds(now_ - *v.asked));
     tally_.granted_at_once += now_ == *v.asked ? 1 : 0;
   }
-  if (v.on_road && seconds(now_ - v.heard) > rules_.stale_after) find(record.vehicle, "granted on a stale position");
+  if (v.on_road && seconds(now_ - v.heard) > rules_.stale_after)
+    find(record.vehicle, "granted on a stale position");
   if (v.on_road && v.doubted) find(record.vehicle, "granted while in doubt");
   if (v.on_road && v.report && v.report->integrity == Report::Integrity::Alarm)
     find(record.vehicle, "granted during an alarm");
-  if (!v.on_road) {
+  const std::size_t from = v.stop.value_or(0);
+  if (v.on_road) {
+    v.granted_from = v.report ? v.report->distance : v.granted_from;
+  } else {
+    v.granted_from = v.way.stops[from].from;
     v.heard = now_;
     v.report.reset();
     v.cleared.reset();
   }
   v.asked.reset();
   v.on_road = true;
-  const std::size_t from = v.stop.value_or(0);
   for (std::size_t k = from + 1; k < v.way.stops.size(); ++k) {
     if (v.way.stops[k].stop != record.stop) continue;
     v.stop = k;
@@ -208,13 +240,10 @@ void LockAudit::slot(const LockRecord& record) {
 // --- What has to hold once the event is done
 
 void LockAudit::checkWhole(const LockEvent& event, const std::vector<LockRecord>& records) {
-  if (const auto* report = std::get_if<Report>(&event.what); report && !rejected_) checkBody(*report, records);
+  if (const auto* report = std::get_if<Report>(&event.what); report && !rejected_) checkBody(*report);
   if (const auto* parked = std::get_if<Parked>(&event.what); parked && !rejected_) {
-    Seen& v = seen_[parked->vehicle];
-    v.on_road = v.doubted = false;
-    v.stop = parked->stop;
-    if (!v.held.empty()) find(parked->vehicle, "parked and still holds road");
-    if (parked->stop + 1 == v.way.stops.size()) v.way = {};
+    const Seen& v = seen_[parked->vehicle];
+    if (!v.on_road && !v.held.empty()) find(parked->vehicle, "parked and still holds road");
   }
   if (const auto* order = std::get_if<Override>(&event.what); order && !rejected_) {
     std::erase(missing_, order->vehicle);
@@ -231,21 +260,17 @@ void LockAudit::checkWhole(const LockEvent& event, const std::vector<LockRecord>
     if (record.kind != Kind::Granted) continue;
     const Seen& v = seen_[record.vehicle];
     if (!v.stop || *v.stop >= v.way.stops.size()) continue;
-    const double to = v.way.stops[*v.stop].to;
-    const double from = v.report ? v.report->distance : -1.0;
     for (const WaySection& s : v.way.sections) {
-      if (s.from >= to || s.to <= from || (!v.report && v.held.count(s.section) == 0 && s.from < to - 1e9)) continue;
-      if (v.report && v.held.count(s.section) == 0)
+      if (s.from < v.way.stops[*v.stop].to && s.to > v.granted_from && v.held.count(s.section) == 0)
         find(record.vehicle, "granted a stop without " + site_->sections[s.section].id + " on the way there");
     }
   }
 }
 
 /// Where the vehicle certainly is, even in its own favour, it must hold the road.
-void LockAudit::checkBody(const Report& report, const std::vector<LockRecord>& records) {
+void LockAudit::checkBody(const Report& report) {
   const Seen& v = seen_[report.vehicle];
   if (!v.on_road || v.doubted || report.integrity == Report::Integrity::Alarm) return;
-  (void)records;
   const double spread = rules_.footprint_sigmas * report.sigma;
   const double front = report.distance + v.shape.front - spread;
   const double rear = report.distance - v.shape.rear + spread;

@@ -10,7 +10,8 @@ namespace pos::interval {
 SectionRange touched(const Way& way, double from, double to) {
   const auto first = std::find_if(way.sections.begin(), way.sections.end(),
                                   [&](const WaySection& s) { return s.to > from; });
-  const auto last = std::find_if(first, way.sections.end(), [&](const WaySection& s) { return s.from >= to; });
+  const auto last =
+      std::find_if(first, way.sections.end(), [&](const WaySection& s) { return s.from >= to; });
   return {static_cast<std::size_t>(first - way.sections.begin()),
           static_cast<std::size_t>(last - way.sections.begin())};
 }
@@ -71,7 +72,8 @@ std::optional<Obstacle> LockDispatch::againstClaims(const Traveller& v, SectionR
       const bool opposed = std::any_of(claim.sections.begin(), claim.sections.end(), [&](const auto& wanted) {
         return wanted.first == mine.section && wanted.second != mine.movement;
       });
-      if (opposed) return Obstacle{Obstacle::Kind::Road, claim.owner, "it yields to a vehicle that goes first"};
+      if (opposed)
+        return Obstacle{Obstacle::Kind::Road, claim.owner, "it yields to a vehicle that goes first"};
     }
   }
   return std::nullopt;

@@ -48,8 +48,10 @@ class LockDispatch {
   SectionRange sectionsTo(const Traveller& v, std::size_t k) const;
 
  private:
-  std::optional<Obstacle> onTheRoad(const Traveller& v, std::size_t k, const std::vector<Claim>& claims) const;
-  std::optional<Obstacle> againstClaims(const Traveller& v, SectionRange range, const std::vector<Claim>& claims) const;
+  std::optional<Obstacle> onTheRoad(const Traveller& v, std::size_t k,
+                                    const std::vector<Claim>& claims) const;
+  std::optional<Obstacle> againstClaims(const Traveller& v, SectionRange range,
+                                        const std::vector<Claim>& claims) const;
   bool blocks(const Traveller& v, const Claim& claim) const;
   std::optional<VehicleId> shadow(const Traveller& v, std::size_t section, int movement) const;
   std::optional<Obstacle> atTheStops(const Traveller& v, std::size_t k) const;

@@ -9,7 +9,9 @@
 namespace pos::interval {
 namespace {
 using Kind = LockRecord::Kind;
-}
+
+constexpr double kPlaceSigma = 0.5;  // m, how well a stop tells where the vehicle in it stands
+}  // namespace
 
 /// The engine's working parts.
 class LockEngine::Desk {
@@ -162,7 +164,8 @@ class LockEngine::Desk {
     noteAlarm(*v, e.integrity == Report::Integrity::Alarm);
     if (!v->believed()) return;
     noteTrespass(*v);
-    const double widened = (rules_.footprint_sigmas + rules_.release_sigmas) * e.sigma + rules_.release_margin;
+    const double widened =
+        (rules_.footprint_sigmas + rules_.release_sigmas) * e.sigma + rules_.release_margin;
     releaseBehind(*v, e.distance - v->shape.rear - widened);
   }
 
@@ -309,9 +312,6 @@ class LockEngine::Desk {
       hold(v, i);
     }
     v.authority = range.last > range.first ? v.way.sections[range.last - 1].to : rear_limit;
-    for (std::size_t k = 0; k < v.stop; ++k) {
-      if (v.way.stops[k].to > rear_limit) takeSlot(v, k);
-    }
     v.heard = now_;
   }
   void account(Traveller& v) {
@@ -340,8 +340,9 @@ class LockEngine::Desk {
   }
 
   void serve(Traveller& v, const LockDispatch& dispatch, std::vector<Claim>& claims) {
-    const auto decision = proven_ ? dispatch.decided(v, claims)
-                                  : Obstacle{Obstacle::Kind::Place, -1, "after a restart not all are accounted for"};
+    const auto decision =
+        proven_ ? dispatch.decided(v, claims)
+                : Obstacle{Obstacle::Kind::Place, -1, "after a restart not all are accounted for"};
     if (const std::size_t* k = std::get_if<std::size_t>(&decision)) return grant(v, *k, dispatch);
     if (proven_) {
       if (auto claim = dispatch.claimOf(v, now_)) claims.push_back(std::move(*claim));
@@ -358,8 +359,10 @@ class LockEngine::Desk {
     record.stop = v.way.stops[k].stop;
     const SectionRange range = dispatch.sectionsTo(v, k);
     if (!v.on_road) {
-      v.rear_limit = v.authority = v.way.stops[v.stop].from;
+      const WayStop& left = v.way.stops[v.stop];
+      v.rear_limit = v.authority = left.from;
       v.heard = now_;
+      v.trust.prove({now_, left.at, std::max(kPlaceSigma, (left.to - left.from) / 6.0)});
       v.on_road = true;
     }
     for (std::size_t i = range.first; i < range.last; ++i) hold(v, i);
@@ -405,8 +408,11 @@ std::vector<std::size_t> LockEngine::occupiedIntervals() const {
 
 VehicleView LockEngine::view(VehicleId vehicle) const {
   const Traveller* v = desk_->find(vehicle);
-  if (v == nullptr) throw DataError(Complaint{.what = "no vehicle of this number is enrolled", .got = std::to_string(vehicle)});
-  VehicleView view{.on_road = v->on_road, .waiting = v->waiting, .authority = v->authority, .believed = v->believed()};
+  if (v == nullptr)
+    throw DataError(
+        Complaint{.what = "no vehicle of this number is enrolled", .got = std::to_string(vehicle)});
+  VehicleView view{
+      .on_road = v->on_road, .waiting = v->waiting, .authority = v->authority, .believed = v->believed()};
   if (v->hasWay()) view.stop = v->stop;
   return view;
 }

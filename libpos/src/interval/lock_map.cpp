@@ -124,7 +124,8 @@ std::vector<double> LockMap::addChambers(const map::Network& network, std::size_
     site_->stops.push_back({chamber.id, StopPlace::Kind::Niche, chamber.length, chamber.capacity});
     cuts.insert(cuts.end(), {from - rules_.bay_margin, to + rules_.bay_margin});
   }
-  std::sort(edge.places.begin(), edge.places.end(), [](const Place& a, const Place& b) { return a.at < b.at; });
+  std::sort(edge.places.begin(), edge.places.end(),
+            [](const Place& a, const Place& b) { return a.at < b.at; });
   return cuts;
 }
 
@@ -149,7 +150,8 @@ void LockMap::addQueues(std::size_t index) {
 }
 
 void LockMap::findIntervals(const map::Network& network) {
-  const auto mark = [&](std::size_t section, map::RoadwayIndex roadway, double from, double to, map::Lane lane) {
+  const auto mark = [&](std::size_t section, map::RoadwayIndex roadway, double from, double to,
+                        map::Lane lane) {
     for (std::size_t i = 0; i < intervals_.size(); ++i) {
       const auto& spans = intervals_[i].spans;
       const bool shares = std::any_of(spans.begin(), spans.end(), [&](const map::IntervalSpan& span) {
@@ -168,7 +170,8 @@ void LockMap::findIntervals(const map::Network& network) {
     }
     if (edges_[e].from > of.from)
       mark(node_section_[of.node_from], of.roadway, of.from, edges_[e].from, map::Lane::Both);
-    if (edges_[e].to < of.to) mark(node_section_[of.node_to], of.roadway, edges_[e].to, of.to, map::Lane::Both);
+    if (edges_[e].to < of.to)
+      mark(node_section_[of.node_to], of.roadway, edges_[e].to, of.to, map::Lane::Both);
   }
 }
 

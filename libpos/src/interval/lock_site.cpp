@@ -30,7 +30,8 @@ void checkStops(const Way& way, const LockSite& site) {
     if (!(stop.from <= stop.at && stop.at <= stop.to)) refuse("a stop does not hold its own place", k);
     if (k > 0 && stop.at <= way.stops[k - 1].at) refuse("the way's stops are not in driving order", k);
     const bool end = k == 0 || k + 1 == way.stops.size();
-    if (end && site.stops[stop.stop].kind != StopPlace::Kind::Depot) refuse("the way does not end in a depot", k);
+    if (end && site.stops[stop.stop].kind != StopPlace::Kind::Depot)
+      refuse("the way does not end in a depot", k);
   }
 }
 
@@ -47,22 +48,38 @@ Way validated(Way way, const LockSite& site) {
 std::string_view name(LockRecord::Kind kind) {
   using Kind = LockRecord::Kind;
   switch (kind) {
-    case Kind::Granted: return "granted";
-    case Kind::Refused: return "refused";
-    case Kind::Locked: return "locked";
-    case Kind::Released: return "released";
-    case Kind::SlotTaken: return "slot_taken";
-    case Kind::SlotFreed: return "slot_freed";
-    case Kind::Stale: return "stale";
-    case Kind::Doubted: return "doubted";
-    case Kind::Trusted: return "trusted";
-    case Kind::Alarmed: return "alarmed";
-    case Kind::AlarmOver: return "alarm_over";
-    case Kind::Trespass: return "trespass";
-    case Kind::Proven: return "proven";
-    case Kind::Restarted: return "restarted";
-    case Kind::Overridden: return "overridden";
-    case Kind::Rejected: return "rejected";
+    case Kind::Granted:
+      return "granted";
+    case Kind::Refused:
+      return "refused";
+    case Kind::Locked:
+      return "locked";
+    case Kind::Released:
+      return "released";
+    case Kind::SlotTaken:
+      return "slot_taken";
+    case Kind::SlotFreed:
+      return "slot_freed";
+    case Kind::Stale:
+      return "stale";
+    case Kind::Doubted:
+      return "doubted";
+    case Kind::Trusted:
+      return "trusted";
+    case Kind::Alarmed:
+      return "alarmed";
+    case Kind::AlarmOver:
+      return "alarm_over";
+    case Kind::Trespass:
+      return "trespass";
+    case Kind::Proven:
+      return "proven";
+    case Kind::Restarted:
+      return "restarted";
+    case Kind::Overridden:
+      return "overridden";
+    case Kind::Rejected:
+      return "rejected";
   }
   return "?";
 }

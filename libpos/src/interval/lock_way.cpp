@@ -48,7 +48,9 @@ std::size_t LockMap::depot(std::size_t node) const {
 double LockMap::drive(Way& way, const DrivenEdge& e, double at) const {
   const Edge& edge = edges_[e.edge];
   const bool forward = e.direction == Direction::Forward;
-  const auto distance = [&](double chainage) { return at + (forward ? chainage - edge.from : edge.to - chainage); };
+  const auto distance = [&](double chainage) {
+    return at + (forward ? chainage - edge.from : edge.to - chainage);
+  };
   std::vector<Piece> pieces = edge.pieces;
   std::vector<Place> places = edge.places;
   if (!forward) {
@@ -56,12 +58,13 @@ double LockMap::drive(Way& way, const DrivenEdge& e, double at) const {
     std::reverse(places.begin(), places.end());
   }
   for (const Piece& p : pieces) {
-    way.sections.push_back({forward ? p.forward : p.backward, forward ? 1 : -1, distance(forward ? p.from : p.to),
-                            distance(forward ? p.to : p.from)});
+    way.sections.push_back({forward ? p.forward : p.backward, forward ? 1 : -1,
+                            distance(forward ? p.from : p.to), distance(forward ? p.to : p.from)});
   }
   for (const Place& p : places) {
     if (p.only && *p.only != e.direction) continue;
-    way.stops.push_back({p.stop, distance(p.at), distance(forward ? p.from : p.to), distance(forward ? p.to : p.from)});
+    way.stops.push_back(
+        {p.stop, distance(p.at), distance(forward ? p.from : p.to), distance(forward ? p.to : p.from)});
   }
   return at + edge.to - edge.from;
 }
@@ -72,7 +75,9 @@ double LockMap::cross(Way& way, const DrivenEdge& in, const DrivenEdge& out, dou
     return end == Direction::Forward ? graph_.edges()[edge].to - edges_[edge].to
                                      : edges_[edge].from - graph_.edges()[edge].from;
   };
-  const auto opposite = [](Direction d) { return d == Direction::Forward ? Direction::Backward : Direction::Forward; };
+  const auto opposite = [](Direction d) {
+    return d == Direction::Forward ? Direction::Backward : Direction::Forward;
+  };
   const auto code = [](const DrivenEdge& e) {
     return 2 * static_cast<int>(e.edge) + (e.direction == Direction::Forward ? 0 : 1);
   };
@@ -84,13 +89,15 @@ double LockMap::cross(Way& way, const DrivenEdge& in, const DrivenEdge& out, dou
 
 Way LockMap::way(const map::RouteLine& route) const {
   const std::vector<DrivenEdge> edges = driven(route);
-  if (edges.empty()) throw DataError(Complaint{.what = "the route does not cover any road between two nodes"});
+  if (edges.empty())
+    throw DataError(Complaint{.what = "the route does not cover any road between two nodes"});
   Way way;
   way.stops.push_back({depot(startNode(edges.front())), 0.0, 0.0, 0.0});
   double at = 0.0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i > 0 && endNode(edges[i - 1]) != startNode(edges[i]))
-      throw DataError(Complaint{.what = "the route has a gap", .got = "after edge " + std::to_string(edges[i - 1].edge)});
+      throw DataError(
+          Complaint{.what = "the route has a gap", .got = "after edge " + std::to_string(edges[i - 1].edge)});
     if (i > 0) at = cross(way, edges[i - 1], edges[i], at);
     at = drive(way, edges[i], at);
   }

@@ -11,6 +11,11 @@ void PositionTrust::forget() {
   believed_.reset();
 }
 
+void PositionTrust::prove(const TrackPoint& place) {
+  forget();
+  last_ = believed_ = place;
+}
+
 void PositionTrust::lose() {
   forget();
   trusted_ = false;

@@ -1,6 +1,6 @@
 #pragma once
-/// Replays the log of a lock engine and says where its rules were broken. Written apart from the engine, simply
-/// and slowly: it keeps its own books from the records and judges them by the events alone.
+/// Replays the log of a lock engine and says where its rules were broken. Written apart from the engine,
+/// simply and slowly: it keeps its own books from the records and judges them by the events alone.
 
 #include <map>
 #include <memory>
@@ -21,10 +21,10 @@ struct AuditFinding {
 
 struct AuditTally {
   std::size_t events = 0;
-  std::size_t requests = 0;        ///< accepted ones
+  std::size_t requests = 0;  ///< accepted ones
   std::size_t granted = 0;
   std::size_t granted_at_once = 0;
-  std::size_t locks = 0;           ///< sections locked
+  std::size_t locks = 0;  ///< sections locked
   std::size_t releases = 0;
   std::size_t doubts = 0;
   std::size_t stale = 0;
@@ -48,14 +48,15 @@ class LockAudit {
   struct Seen {
     Enrol shape = {};
     Way way = {};
-    std::optional<std::size_t> stop = {};  ///< index into way.stops last granted
+    std::optional<std::size_t> stop = {};       ///< index into way.stops last granted
     std::multimap<std::size_t, int> held = {};  ///< section, movement
     std::optional<Stamp> asked = {};
     std::optional<Report> report = {};
     Stamp heard = {};
+    Stamp heard_before = {};    ///< before this event
+    double granted_from = 0.0;  ///< m along the way
     bool on_road = false;
     bool doubted = false;
-    bool stale = false;
     std::optional<std::pair<Stamp, Report>> cleared = {};  ///< the report of the last release
   };
   struct Guest {
@@ -69,6 +70,7 @@ class LockAudit {
   void note(const Begin& e);
   void note(const Request& e);
   void note(const Report& e);
+  void note(const Parked& e);
   void note(const Restart& e);
   void note(const Announce& e);
   template <class Other>
@@ -80,13 +82,13 @@ class LockAudit {
   void slot(const LockRecord& record);
   void checkClear(const LockRecord& record, const Report& report);
   void checkWhole(const LockEvent& event, const std::vector<LockRecord>& records);
-  void checkBody(const Report& report, const std::vector<LockRecord>& records);
+  void checkBody(const Report& report);
 
   std::shared_ptr<const LockSite> site_;
   LockRules rules_;
   std::map<VehicleId, Seen> seen_;
   std::vector<std::vector<Guest>> guests_;
-  std::vector<VehicleId> missing_;  ///< not announced since the restart
+  std::vector<VehicleId> missing_;       ///< not announced since the restart
   std::vector<std::size_t> trespassed_;  ///< sections, in this event
   Stamp now_ = {};
   bool rejected_ = false;

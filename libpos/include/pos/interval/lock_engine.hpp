@@ -4,10 +4,10 @@
 ///
 /// The rules (docs/math/intervals.md gives the reasons): everybody on a section makes the same movement, so a
 /// single lane is run in one direction at a time, by a platoon if there is one; a vehicle is allowed, all at
-/// once, every section up to a stop with room for it, and its place in that stop; sections are released behind
-/// the rear only, by a believed report, with a margin; nothing is released and nothing granted on a position
-/// that is stale, in doubt or alarmed; after a restart nothing is granted until every vehicle has told where it
-/// is.
+/// once, every section up to a stop with room for it, and its place in that stop; sections are released
+/// behind the rear only, by a believed report, with a margin; nothing is released and nothing granted on a
+/// position that is stale, in doubt or alarmed; after a restart nothing is granted until every vehicle has
+/// told where it is.
 
 #include <map>
 #include <memory>
@@ -23,10 +23,11 @@ namespace pos::interval {
 /// What the engine believes of one vehicle.
 struct VehicleView {
   bool on_road = false;
-  bool waiting = false;           ///< has asked to go on
-  std::optional<std::size_t> stop = {};  ///< index into its way's stops it may drive to; nothing without a way
-  double authority = 0.0;         ///< m along the way, the end of what it holds
-  bool believed = false;          ///< its position is fresh, trusted and without alarm
+  bool waiting = false;  ///< has asked to go on
+  std::optional<std::size_t> stop =
+      {};                  ///< index into its way's stops it may drive to; nothing without a way
+  double authority = 0.0;  ///< m along the way, the end of what it holds
+  bool believed = false;   ///< its position is fresh, trusted and without alarm
 };
 
 class LockEngine {

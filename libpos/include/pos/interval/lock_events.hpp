@@ -47,13 +47,14 @@ struct Report {
     Passage  ///< a chamber passage that passed its checks proves the position
   };
   VehicleId vehicle = 0;
-  double distance = 0.0;  ///< m along the way
-  double sigma = 0.0;     ///< m
+  double distance = 0.0;             ///< m along the way
+  double sigma = 0.0;                ///< m
   std::optional<double> speed = {};  ///< m/s along the way, from the wheels; makes small jumps visible
   Integrity integrity = Integrity::Good;
   Evidence evidence = Evidence::Estimate;
 };
-/// A niche or depot on its way, where room is kept for the vehicle, says that the vehicle is in it, off the road.
+/// A niche or depot on its way, where room is kept for the vehicle, says that the vehicle is in it, off the
+/// road.
 struct Parked {
   VehicleId vehicle = 0;
   std::size_t stop = 0;  ///< index into the way's stops
@@ -67,9 +68,9 @@ struct Restart {};
 struct Announce {
   VehicleId vehicle = 0;
   Way way = {};
-  std::size_t stop = 0;       ///< index into way.stops
-  double rear_limit = 0.0;    ///< m along the way; nothing of the vehicle is behind it
-  bool parked = false;        ///< off the road, in that stop
+  std::size_t stop = 0;     ///< index into way.stops
+  double rear_limit = 0.0;  ///< m along the way; nothing of the vehicle is behind it
+  bool parked = false;      ///< off the road, in that stop
 };
 /// A person decides what the engine cannot know.
 struct Override {
@@ -85,7 +86,8 @@ struct Override {
 
 struct LockEvent {
   Stamp stamp = {};
-  std::variant<Enrol, Begin, Request, Withdraw, Report, Parked, Tick, Restart, Announce, Override> what = Tick{};
+  std::variant<Enrol, Begin, Request, Withdraw, Report, Parked, Tick, Restart, Announce, Override> what =
+      Tick{};
 };
 
 /// One line of what the engine decided.
@@ -97,13 +99,13 @@ struct LockRecord {
     Released,  ///< it no longer does
     SlotTaken,
     SlotFreed,
-    Stale,     ///< no report for too long: what it holds stays held
-    Doubted,   ///< its reports contradict each other or themselves
-    Trusted,   ///< they can be believed again
+    Stale,    ///< no report for too long: what it holds stays held
+    Doubted,  ///< its reports contradict each other or themselves
+    Trusted,  ///< they can be believed again
     Alarmed,
     AlarmOver,
-    Trespass,    ///< it is certainly where it was not allowed; the section is locked all the same
-    Proven,      ///< after a restart: every vehicle is accounted for
+    Trespass,  ///< it is certainly where it was not allowed; the section is locked all the same
+    Proven,    ///< after a restart: every vehicle is accounted for
     Restarted,
     Overridden,
     Rejected  ///< the event itself makes no sense; nothing was changed

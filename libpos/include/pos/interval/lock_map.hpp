@@ -14,23 +14,24 @@ namespace pos::interval {
 struct LockMapRules {
   double bay_margin = 10.0;      ///< m, the road belongs to a chamber this far beyond both of its ends
   double junction_reach = 15.0;  ///< m of every road at a junction that belong to the junction
-  double stop_line = 10.0;       ///< m, on two lanes the reference point waits this far before the junction's part
-  double queue_length = 80.0;    ///< m, longest queue on one lane before a junction
-  double queue_margin = 15.0;    ///< m of that queue left free, so that the last one's rear clears what is behind
+  double stop_line = 10.0;  ///< m, on two lanes the reference point waits this far before the junction's part
+  double queue_length = 80.0;  ///< m, longest queue on one lane before a junction
+  double queue_margin =
+      15.0;  ///< m of that queue left free, so that the last one's rear clears what is behind
 };
 LockMapRules validated(LockMapRules rules);
 
-/// A roadway with one lane is cut at its passing chambers, each chamber with the road before it being a section
-/// of its own; a roadway with two lanes has a section for each lane; a junction is one section, which two
-/// vehicles share only when they make the same turn. All are cut at the ends of the lock intervals too.
+/// A roadway with one lane is cut at its passing chambers, each chamber with the road before it being a
+/// section of its own; a roadway with two lanes has a section for each lane; a junction is one section, which
+/// two vehicles share only when they make the same turn. All are cut at the ends of the lock intervals too.
 class LockMap {
  public:
-  LockMap(const map::Network& network, const map::RoadGraph& graph, const std::vector<map::LockInterval>& intervals,
-          const LockMapRules& rules);
+  LockMap(const map::Network& network, const map::RoadGraph& graph,
+          const std::vector<map::LockInterval>& intervals, const LockMapRules& rules);
 
   std::shared_ptr<const LockSite> site() const { return site_; }
-  /// Throws DataError for a route that does not begin and end at an open end or a portal, where the vehicles are
-  /// taken to be off the road.
+  /// Throws DataError for a route that does not begin and end at an open end or a portal, where the vehicles
+  /// are taken to be off the road.
   Way way(const map::RouteLine& route) const;
 
  private:
@@ -49,8 +50,8 @@ class LockMap {
     std::optional<map::Direction> only = {};
   };
   struct Edge {
-    double from = 0.0;         ///< m, chainage where the first junction's part ends
-    double to = 0.0;           ///< m, chainage where the last one's begins
+    double from = 0.0;  ///< m, chainage where the first junction's part ends
+    double to = 0.0;    ///< m, chainage where the last one's begins
     std::vector<Piece> pieces = {};
     std::vector<Place> places = {};
   };

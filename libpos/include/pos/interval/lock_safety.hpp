@@ -10,8 +10,8 @@ namespace pos::interval {
 /// A vehicle at the stop that it has been allowed to drive to.
 struct Settled {
   const Way* way = nullptr;
-  std::size_t stop = 0;       ///< index into way->stops
-  double still_to_go = 0.0;   ///< m to that stop; who has less is in front
+  std::size_t stop = 0;      ///< index into way->stops
+  double still_to_go = 0.0;  ///< m to that stop; who has less is in front
 };
 
 /// True when there is an order in which one vehicle after the other can drive to the end of its way without

@@ -1,6 +1,6 @@
 #pragma once
-/// What the lock engine knows of the mine: sections that are locked as one, places where vehicles can wait, and
-/// the ways that lead over them. Plain data without geometry; lock_map.hpp makes it from a map.
+/// What the lock engine knows of the mine: sections that are locked as one, places where vehicles can wait,
+/// and the ways that lead over them. Plain data without geometry; lock_map.hpp makes it from a map.
 
 #include <cstddef>
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace pos::interval {
 
-/// The smallest piece of road that is locked as one. Everybody on it at the same time makes the same movement.
+/// The smallest piece of road that is locked as one. Everybody on it at the same time makes the same
+/// movement.
 struct LockSection {
   std::string id = {};
-  bool single_lane = true;              ///< two vehicles that meet here could not pass
+  bool single_lane = true;                  ///< two vehicles that meet here could not pass
   std::vector<std::size_t> intervals = {};  ///< lock intervals (map::divided) that share a span with it
 };
 
@@ -33,8 +34,8 @@ struct LockSite {
   std::vector<StopPlace> stops = {};
 };
 
-/// A section as one way crosses it. Two vehicles may share a section when their movements are equal: +1 and -1
-/// are along and against the roadway, other numbers are turns in a junction.
+/// A section as one way crosses it. Two vehicles may share a section when their movements are equal: +1 and
+/// -1 are along and against the roadway, other numbers are turns in a junction.
 struct WaySection {
   std::size_t section = 0;
   int movement = 1;

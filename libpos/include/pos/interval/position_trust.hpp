@@ -16,18 +16,20 @@ struct TrackPoint {
   double sigma = 0.0;
 };
 
-/// Doubts begin with a step that no vehicle can make, or with a gap. They end by a passage, by reports that come
-/// back to where the steps before and after the jump lead, or, after a gap only, by steady reports. A position
-/// that jumped and stays there is never believed for its steadiness.
+/// Doubts begin with a step that no vehicle can make, or with a gap. They end by a passage, by reports that
+/// come back to where the steps before and after the jump lead, or, after a gap only, by steady reports. A
+/// position that jumped and stays there is never believed for its steadiness.
 class PositionTrust {
  public:
   PositionTrust(const LockRules& rules, double max_speed) : rules_(rules), max_speed_(max_speed) {}
 
-  /// `speed` (m/s) is what the wheels say of the time since the last report; without it anything up to the top
-  /// speed is possible.
+  /// `speed` (m/s) is what the wheels say of the time since the last report; without it anything up to the
+  /// top speed is possible.
   void take(const TrackPoint& now, std::optional<double> speed, Report::Evidence evidence);
   /// Whatever came before, the next report is believed (the vehicle was seen).
   void forget();
+  /// It was certainly there.
+  void prove(const TrackPoint& place);
   /// Nothing is known of the past: reports have to be steady first.
   void lose();
   bool trusted() const { return trusted_; }
