@@ -92,7 +92,7 @@ std::optional<VehicleId> LockDispatch::inFrontInQueue(const Traveller& v) const 
   const std::size_t place = v.way.stops[v.stop].stop;
   for (const auto& [id, other] : *all_) {
     if (&other == &v || !other.on_road || other.way.stops[other.stop].stop != place) continue;
-    if (other.stillToGo() < v.stillToGo()) return id;
+    if (!other.believed() || other.stillToGo() < v.stillToGo()) return id;  // unknown: it may be in front
   }
   return std::nullopt;
 }
@@ -127,10 +127,15 @@ std::optional<Obstacle> LockDispatch::atTheStops(const Traveller& v, std::size_t
   return std::nullopt;
 }
 
+/// Only a stop on the road can make things worse: from a niche or depot a vehicle is in nobody's way, and
+/// what is left of its own way has become shorter.
 std::optional<Obstacle> LockDispatch::safety(const Traveller& v, std::size_t k) const {
+  if (kindOf(v, k) != StopPlace::Kind::OnRoad) return std::nullopt;
   std::vector<Settled> settled;
   for (const auto& [id, other] : *all_) {
     if (!other.hasWay() || (&other != &v && !other.on_road)) continue;
+    if (&other != &v && !other.believed() && waiterAt(other, other.way.stops[other.stop].stop))
+      return Obstacle{Obstacle::Kind::Deadlock, id, "the order of a queue is not known"};
     const double shift = &other == &v ? v.way.stops[k].at - v.way.stops[v.stop].at : 0.0;
     settled.push_back({&other.way, &other == &v ? k : other.stop, other.stillToGo() + shift});
   }

@@ -164,9 +164,12 @@ class LockEngine::Desk {
     noteAlarm(*v, e.integrity == Report::Integrity::Alarm);
     if (!v->believed()) return;
     noteTrespass(*v);
-    const double widened =
-        (rules_.footprint_sigmas + rules_.release_sigmas) * e.sigma + rules_.release_margin;
-    releaseBehind(*v, e.distance - v->shape.rear - widened);
+    // Both the report as it came and what is believed of it have to be clear.
+    const auto clear = [&](const TrackPoint& at) {
+      return at.distance - v->shape.rear - (rules_.footprint_sigmas + rules_.release_sigmas) * at.sigma -
+             rules_.release_margin;
+    };
+    releaseBehind(*v, std::min(clear(*v->last), clear(*v->trust.believed())));
   }
 
   void take(const Parked& e) {

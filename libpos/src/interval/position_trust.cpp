@@ -1,83 +1,84 @@
 #include "pos/interval/position_trust.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pos::interval {
 
 void PositionTrust::forget() {
-  trusted_ = true;
-  last_.reset();
-  anchor_.reset();
+  state_ = State::Trusted;
+  track_.reset();
   believed_.reset();
 }
 
 void PositionTrust::prove(const TrackPoint& place) {
   forget();
-  last_ = believed_ = place;
+  track_ = believed_ = place;
 }
 
 void PositionTrust::lose() {
   forget();
-  trusted_ = false;
+  state_ = State::AfterGap;
+}
+
+void PositionTrust::restart(const TrackPoint& now) {
+  track_ = now;
+  steady_since_ = now.stamp;
 }
 
 void PositionTrust::take(const TrackPoint& now, std::optional<double> speed, Report::Evidence evidence) {
   if (evidence == Report::Evidence::Passage) {
-    trusted_ = true;
-    anchor_.reset();
-  } else if (last_) {
-    const double dt = seconds(now.stamp - last_->stamp);
-    const Step step = possible(dt, speed);
-    const Gap gap = dt > rules_.stale_after ? Gap::Yes : Gap::No;
-    if (trusted_) {
-      doubt(now, step, gap);
-    } else {
-      weigh(now, step, gap);
-    }
+    state_ = State::Trusted;
+    restart(now);
+  } else if (!track_) {
+    restart(now);
   } else {
-    steady_since_ = now.stamp;
+    weigh(now, speed);
   }
-  if (trusted_) believed_ = now;
-  last_ = now;
+  if (trusted()) believed_ = track_;
 }
 
-PositionTrust::Step PositionTrust::possible(double dt, std::optional<double> speed) const {
-  return speed ? Step{*speed * dt, rules_.speed_error * dt} : Step{0.0, max_speed_ * dt};
-}
-
-bool PositionTrust::plausible(const TrackPoint& now, const Step& step) const {
-  return std::abs(now.distance - last_->distance - step.expected) <=
-         step.slack + rules_.jump_sigmas * std::hypot(now.sigma, last_->sigma);
-}
-
-/// While trusted: does this report give cause for doubt?
-void PositionTrust::doubt(const TrackPoint& now, const Step& step, Gap gap) {
-  if (gap == Gap::No && plausible(now, step)) return;
-  trusted_ = false;
-  anchor_ = gap == Gap::Yes ? std::nullopt : last_;
-  carried_ = step.expected;
-  slack_ = step.slack;
-  steady_since_ = now.stamp;
-}
-
-/// While in doubt: does this report end it?
-void PositionTrust::weigh(const TrackPoint& now, const Step& step, Gap gap) {
-  if (gap == Gap::No && plausible(now, step)) {
-    carried_ += now.distance - last_->distance;
-  } else {
-    carried_ += step.expected;
-    slack_ += step.slack;
-    steady_since_ = now.stamp;
+void PositionTrust::weigh(const TrackPoint& now, std::optional<double> speed) {
+  const double dt = seconds(now.stamp - track_->stamp);
+  const bool gap = dt > rules_.stale_after;
+  const double slack = speed && !gap ? rules_.speed_error * dt : max_speed_ * dt;
+  if (speed && !gap) track_->distance += *speed * dt;
+  track_->sigma += slack / rules_.jump_sigmas;
+  track_->stamp = now.stamp;
+  const bool agrees =
+      std::abs(now.distance - track_->distance) <= rules_.jump_sigmas * std::hypot(now.sigma, track_->sigma);
+  switch (state_) {
+    case State::Trusted:
+      if (gap) {
+        state_ = State::AfterGap;
+        restart(now);
+      } else if (agrees) {
+        fuse(now);
+      } else {
+        state_ = State::AfterJump;
+      }
+      break;
+    case State::AfterGap:
+      if (gap || !agrees) {
+        restart(now);
+      } else {
+        fuse(now);
+        if (seconds(now.stamp - steady_since_) >= rules_.steady_for) state_ = State::Trusted;
+      }
+      break;
+    case State::AfterJump:
+      if (gap || !agrees || rules_.jump_sigmas * track_->sigma > rules_.jump_slack) break;
+      state_ = State::Trusted;
+      fuse(now);
+      break;
   }
-  trusted_ = anchor_ ? back(now) : seconds(now.stamp - steady_since_) >= rules_.steady_for;
-  if (trusted_) anchor_.reset();
 }
 
-/// Whether the report is where the vehicle can have come to from the anchor.
-bool PositionTrust::back(const TrackPoint& now) const {
-  return slack_ <= rules_.jump_slack &&
-         std::abs(now.distance - anchor_->distance - carried_) <=
-             slack_ + rules_.jump_sigmas * std::hypot(now.sigma, anchor_->sigma);
+void PositionTrust::fuse(const TrackPoint& now) {
+  const double P = track_->sigma * track_->sigma;
+  const double R = now.sigma * now.sigma;
+  if (P + R > 0.0) track_->distance += P / (P + R) * (now.distance - track_->distance);
+  track_->sigma = std::min(track_->sigma, now.sigma);
 }
 
 }  // namespace pos::interval

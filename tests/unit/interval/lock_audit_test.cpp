@@ -19,7 +19,7 @@ class Log {
     pass(1.0, Begin{2, line.west});
     pass(2.0, Request{1});
     for (double t = 3.0; t < 20.0; t += 1.0)
-      pass(t, Report{.vehicle = 1, .distance = 4.0 * (t - 2.0), .sigma = 1.0});
+      pass(t, Report{.vehicle = 1, .distance = 4.0 * (t - 2.0), .sigma = 1.0, .speed = 4.0});
   }
   template <class What>
   void pass(double t, const What& what) {

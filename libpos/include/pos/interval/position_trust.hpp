@@ -16,9 +16,11 @@ struct TrackPoint {
   double sigma = 0.0;
 };
 
-/// Doubts begin with a step that no vehicle can make, or with a gap. They end by a passage, by reports that
-/// come back to where the steps before and after the jump lead, or, after a gap only, by steady reports. A
-/// position that jumped and stays there is never believed for its steadiness.
+/// A dead-reckoned belief from the told speeds, corrected by the reports (a scalar Kalman filter that never
+/// thinks itself better than the best single report, since reports err alike for a while). A report beyond
+/// the gate begins a doubt; it ends when a report agrees with the dead reckoning again, while that is still
+/// good for anything, or by a passage. After a gap, which nothing bridges, reports have to be steady for a
+/// time. A position that jumped and stays there is never believed for its steadiness.
 class PositionTrust {
  public:
   PositionTrust(const LockRules& rules, double max_speed) : rules_(rules), max_speed_(max_speed) {}
@@ -32,31 +34,21 @@ class PositionTrust {
   void prove(const TrackPoint& place);
   /// Nothing is known of the past: reports have to be steady first.
   void lose();
-  bool trusted() const { return trusted_; }
-  /// The newest believed report; nothing before the first.
+  bool trusted() const { return state_ == State::Trusted; }
+  /// The belief at the newest report that was believed; nothing before the first.
   const std::optional<TrackPoint>& believed() const { return believed_; }
 
  private:
-  enum class Gap { No, Yes };  // no report for longer than rules_.stale_after
-  /// What a step may have been: about `expected`, give or take `slack`, m.
-  struct Step {
-    double expected = 0.0;
-    double slack = 0.0;
-  };
-  Step possible(double dt, std::optional<double> speed) const;
-  bool plausible(const TrackPoint& now, const Step& step) const;
-  void doubt(const TrackPoint& now, const Step& step, Gap gap);
-  void weigh(const TrackPoint& now, const Step& step, Gap gap);
-  bool back(const TrackPoint& now) const;
+  enum class State { Trusted, AfterGap, AfterJump };
+  void weigh(const TrackPoint& now, std::optional<double> speed);
+  void restart(const TrackPoint& now);
+  void fuse(const TrackPoint& now);
 
   LockRules rules_;
   double max_speed_ = 0.0;
-  bool trusted_ = true;
-  std::optional<TrackPoint> last_;
+  State state_ = State::Trusted;
+  std::optional<TrackPoint> track_;  // dead reckoned, corrected
   std::optional<TrackPoint> believed_;
-  std::optional<TrackPoint> anchor_;  // last believed report before a jump; nothing after a gap
-  double carried_ = 0.0;              // m, steps since the anchor, impossible ones replaced by the expected
-  double slack_ = 0.0;                // m, how wrong the replaced steps may be
   Stamp steady_since_ = {};
 };
 
