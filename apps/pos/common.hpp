@@ -56,6 +56,7 @@ void addCalibrate(const Verbs& verbs);
 void addInfo(const Verbs& verbs);
 void addConfig(const Verbs& verbs);
 void addReport(const Verbs& verbs);
+void addMap(const Verbs& verbs);
 void addVersion(const Verbs& verbs);
 
 }  // namespace pos::app

@@ -93,6 +93,7 @@ int run(int argc, char** argv) {
   pos::app::addConvert(verbs);
   pos::app::addCalibrate(verbs);
   pos::app::addInfo(verbs);
+  pos::app::addMap(verbs);
   pos::app::addConfig(verbs);
   pos::app::addReport(verbs);
   pos::app::addVersion(verbs);

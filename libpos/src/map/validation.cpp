@@ -48,8 +48,7 @@ bool isDate(const std::string& text) {
   return month >= 1 && month <= 12 && day >= 1 && day <= 31;
 }
 
-void check(const Anchor& anchor) {
-  const std::string key = "anchors[id " + std::to_string(anchor.id) + "]";
+void check(const Anchor& anchor, const std::string& key) {
   if (!anchor.p_map.allFinite()) {
     refuse("anchor has a coordinate that is no number", key, "", "x_m, y_m, z_m in metres",
            "look up the anchor in the survey");
@@ -67,11 +66,12 @@ void check(const Anchor& anchor) {
 
 void checkAnchors(const TunnelMap& map) {
   std::set<AnchorId> seen;
-  for (const Anchor& anchor : map.anchors) {
-    check(anchor);
+  for (std::size_t i = 0; i < map.anchors.size(); ++i) {
+    const Anchor& anchor = map.anchors[i];
+    check(anchor, indexed("anchors", i));
     if (!seen.insert(anchor.id).second) {
-      refuse("two anchors have the same id", "anchors", "id " + std::to_string(anchor.id), "every id once",
-             "give one of the two its own id");
+      refuse("two anchors have the same id", indexed("anchors", i) + ".id", "id " + std::to_string(anchor.id),
+             "every id once", "give one of the two its own id");
     }
   }
 }
@@ -257,6 +257,22 @@ void checkFurniture(const TunnelMap& map, const References& references) {
   });
 }
 
+void check(const Requirements& requirements) {
+  const std::string key = "requirements";
+  if (requirements.anchors_visible < 0) {
+    refuse("a negative number of anchors is asked for", key + ".anchors_visible",
+           std::to_string(requirements.anchors_visible), ">= 0");
+  }
+  requirePositive(requirements.range_limit, key + ".range_limit_m", "the radio");
+  requireNotNegative(requirements.tag_height, key + ".tag_height_m", "the tag");
+  checkEach(requirements.vehicles, "requirements.vehicles",
+            [](const SiteVehicle& vehicle, const std::string& at) {
+              requirePositive(vehicle.width, at + ".width_m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.height, at + ".height_m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.length, at + ".length_m", "vehicle " + vehicle.id);
+            });
+}
+
 }  // namespace
 
 TunnelMap validated(TunnelMap map) {
@@ -267,6 +283,7 @@ TunnelMap validated(TunnelMap map) {
   const References references(map);
   checkJunctions(map, references);
   checkFurniture(map, references);
+  if (map.requirements) check(*map.requirements);
   if (map.background && map.background->control_points.size() < 3) {
     refuse("the background has too few control points", "background.control_points",
            std::to_string(map.background->control_points.size()), "at least three, not on one line");

@@ -118,7 +118,7 @@ TEST(RoadGraph, ShortestRouteAgreesWithExhaustion) {
       EXPECT_NEAR(route->length(), slow, 1e-9);
       EXPECT_EQ(route->at(0.0).roadway, start.roadway);
       EXPECT_DOUBLE_EQ(route->at(0.0).chainage, start.chainage);
-      EXPECT_DOUBLE_EQ(route->at(route->length()).chainage, goal.chainage);
+      EXPECT_NEAR(route->at(route->length()).chainage, goal.chainage, 1e-9);
     }
   }
   EXPECT_GT(found, 60);
@@ -147,10 +147,11 @@ TEST(RoadGraph, ClosedZoneIsDrivenRound) {
   const TunnelPoint goal{0, 90.0, 0, 0};
   EXPECT_NEAR(RoadGraph(networkOf(map)).shortestRoute(start, goal)->length(), 80.0, 1e-9);
   map.zones = {{.id = "Z", .stretch = {"H0", 70.0, 72.0}}};
-  const auto route = RoadGraph(networkOf(map)).shortestRoute(start, goal);
-  EXPECT_FALSE(route.has_value()) << "the goal lies between the zone and the end of the field";
+  EXPECT_NEAR(RoadGraph(networkOf(map)).shortestRoute(start, goal)->length(), 180.0, 1e-9)
+      << "up, along the next roadway and down again";
   map.zones[0].stretch = {"H0", 60.0, 62.0};
-  EXPECT_FALSE(RoadGraph(networkOf(map)).shortestRoute({0, 55.0, 0, 0}, {0, 65.0, 0, 0})->length() < 100.0);
+  EXPECT_NEAR(RoadGraph(networkOf(map)).shortestRoute({0, 55.0, 0, 0}, {0, 65.0, 0, 0})->length(), 190.0,
+              1e-9);
 }
 
 }  // namespace pos::map

@@ -58,7 +58,7 @@ TEST(TunnelMap, AnchorWithoutANumberIsRefusedByName) {
   TunnelMap map = threeAnchors();
   map.anchors[1].p_map.z() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal(map).what, "anchor has a coordinate that is no number");
-  EXPECT_EQ(refusal(map).key, "anchors[id -2]");
+  EXPECT_EQ(refusal(map).key, "anchors[1]");
 }
 
 TEST(TunnelMap, BadSurveySigmaIsRefused) {
@@ -67,7 +67,7 @@ TEST(TunnelMap, BadSurveySigmaIsRefused) {
     TunnelMap map = threeAnchors();
     map.anchors[0].survey_sigma = bad;
     EXPECT_EQ(refusal(map).what, "anchor has a bad survey sigma");
-    EXPECT_EQ(refusal(map).key, "anchors[id 7].survey_sigma_m");
+    EXPECT_EQ(refusal(map).key, "anchors[0].survey_sigma_m");
   }
 }
 

@@ -59,21 +59,18 @@ struct CheckRules {
   double station_tolerance = 1.0;  ///< m, surveyed station against length
   double wall_distance = 0.6;      ///< m, an anchor farther from wall, roof and floor hangs in the air
   double anchor_slack = 0.15;      ///< m, an anchor may be this deep in the rock
-  int anchors_needed = 0;          ///< seen from everywhere; 0 = not checked
-  double range_limit = 120.0;      ///< m, of the radio
-  double tag_height = 1.5;         ///< m above the floor
-  double sample_step = 5.0;        ///< m of chainage
-  double rock_between = 2.0;       ///< m, roof to floor at a crossing
-  double light_reach = 30.0;       ///< m, lights stand within this of a section's ends
-  double vehicle_length = 5.0;     ///< m, what a passing chamber has to hold at least
-  double steepest_grade = 0.45;    ///< rise per metre of plan
-  double bend_angle = 0.52;        ///< rad, turns of more than this are bends
-  std::vector<VehicleSize> vehicles = {};  ///< every roadway is checked for each
+  double section_without_chamber = 100.0;  ///< m, the longest single lane that needs none
+  double sample_step = 5.0;                ///< m of chainage
+  double rock_between = 2.0;               ///< m, roof to floor at a crossing
+  double light_reach = 30.0;               ///< m, lights stand within this of a section's ends
+  double steepest_grade = 0.45;            ///< rise per metre of plan
+  double bend_angle = 0.52;                ///< rad, turns of more than this are bends
   ClearanceRules clearance = {};
 };
 CheckRules validated(CheckRules rules);
 
-/// All findings, errors first, then in map order.
+/// All findings, errors first, then in map order. What has to be visible and which vehicles have to fit comes
+/// from the map's own requirements.
 std::vector<Finding> findings(const Network& network, const CheckRules& rules);
 
 }  // namespace pos::map

@@ -105,6 +105,26 @@ struct Route {
   bool operator==(const Route&) const = default;
 };
 
+/// A kind of vehicle that drives here: outer size with load, m.
+struct SiteVehicle {
+  std::string id = {};
+  double width = 0.0;
+  double height = 0.0;
+  double length = 0.0;
+
+  bool operator==(const SiteVehicle&) const = default;
+};
+
+/// What the site has to offer; the checks compare the map with it.
+struct Requirements {
+  int anchors_visible = 0;     ///< from everywhere on the roadways; 0 = not asked for
+  double range_limit = 120.0;  ///< m, of the radio
+  double tag_height = 1.5;     ///< m, above the floor
+  std::vector<SiteVehicle> vehicles = {};
+
+  bool operator==(const Requirements&) const = default;
+};
+
 /// A point of a picture that was found on the map.
 struct ControlPoint {
   double column = 0.0;  ///< pixels from the left edge

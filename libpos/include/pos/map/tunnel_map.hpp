@@ -94,6 +94,7 @@ struct TunnelMap {
   std::vector<RestrictedZone> zones = {};
   std::vector<Route> routes = {};
   std::optional<BackgroundImage> background = {};
+  std::optional<Requirements> requirements = {};
 
   bool operator==(const TunnelMap&) const = default;
 
