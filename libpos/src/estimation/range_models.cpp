@@ -201,4 +201,18 @@ filters::Innovation<State, 2> positionInnovation(const State& x, const RangeLayo
   return innovation;
 }
 
+filters::Innovation<State, 3> poseInnovation(const State& x, const RangeLayout& layout,
+                                             const Pose2& T_map_body, double age,
+                                             const BodyVelocity& odometry_velocity) {
+  const auto position = positionInnovation(x, layout, T_map_body.translation(), age, odometry_velocity);
+  const double yaw = carried(x, layout, odometry_velocity, age).yaw;
+  filters::Innovation<State, 3> innovation{Vector<3>::Zero(),
+                                           TangentRows<State, 3>::Zero(3, x.values.size())};
+  innovation.nu << position.nu, wrapAngle(T_map_body.yaw - yaw);
+  innovation.H.topRows<2>() = position.H;
+  innovation.H(2, 2) = 1.0;
+  if (const auto row = layout.row(Term::YawRate)) innovation.H(2, *row) = age;
+  return innovation;
+}
+
 }  // namespace pos::estimation

@@ -210,14 +210,35 @@ IngestReport RangeOdometry::gather(Stamp stamp, const BeaconRange& range) {
 
 IngestReport RangeOdometry::correct(Stamp stamp, const BeaconRange& range, const RangeGeometry& geometry) {
   const map::Anchor& anchor = anchors_.at(range.anchor);
-  // Over `age` the odometry's velocity stands in for the motion: what it may have changed by widens the
-  // range.
-  const double unknown =
-      driven() ? square(config_.acceleration_density) * std::pow(std::abs(geometry.age), 3) / 3.0 : 0.0;
-  const double variance = square(config_.range_sigma) + square(anchor.survey_sigma) + unknown;
+  const double variance =
+      square(config_.range_sigma) + square(anchor.survey_sigma) + unknownMotion(geometry.age);
   const RangeCorrection told = bank_.correct(layout_, {geometry, range.range, variance}, gate_);
   IngestReport report = reportOf(told);
   if (watch_.opens(stamp, range.anchor, told.verdict)) report.event = openGate(stamp);
+  return report;
+}
+
+/// Over `age` the odometry's velocity stands in for the motion; the variance (m^2) of what it may have
+/// changed by.
+double RangeOdometry::unknownMotion(double age) const {
+  return driven() ? square(config_.acceleration_density) * std::pow(std::abs(age), 3) / 3.0 : 0.0;
+}
+
+IngestReport RangeOdometry::take(Stamp stamp, const PassageFix& fix) {
+  if (fix.yaw && !fix.yaw_sigma) return refusal(Verdict::Degenerate, "the fix's heading has no sigma");
+  begin(stamp);
+  if (start_) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first position");
+  if (!driven()) carryTo(stamp);
+  const double age = ageOf(stamp);
+  FixReading reading{
+      .p_map = fix.p_map.head<2>(), .yaw = fix.yaw, .age = age, .odometry_velocity = coasting(age)};
+  reading.covariance.topLeftCorner<2, 2>() = fix.covariance.topLeftCorner<2, 2>();
+  reading.covariance.diagonal().head<2>().array() += unknownMotion(age);
+  if (fix.yaw) reading.covariance(2, 2) = square(*fix.yaw_sigma);
+  const FixCorrection told = bank_.correct(layout_, reading, config_.gate.confidence);
+  IngestReport report{.verdict = told.verdict, .dof = told.dof, .nis = told.nis};
+  if (told.verdict == Verdict::Gated) report.reason = "fix disagrees with the prediction";
+  if (told.verdict == Verdict::Degenerate) report.reason = "innovation covariance is not positive";
   return report;
 }
 

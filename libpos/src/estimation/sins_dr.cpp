@@ -15,8 +15,9 @@ using ins::kPhi;
 using ins::kPosition;
 using ins::kVelocity;
 
-constexpr double kLeastRest = 1.0;  // s of standing that are worth an average
-constexpr double kFreeFall = 1.0;   // m/s^2: less specific force than this is no reading
+constexpr double kLeastRest = 1.0;            // s of standing that are worth an average
+constexpr double kMovingVelocitySigma = 0.2;  // m/s, of a start in motion, by the wheels
+constexpr double kFreeFall = 1.0;             // m/s^2: less specific force than this is no reading
 
 double square(double value) {
   return value * value;
@@ -68,6 +69,8 @@ void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
   rest_.forget();
   pending_.forget();
   moved_early_ = false;
+  blind_ = {};
+  blind_speed_ = 0.0;
   counter_.forget();
   slip_.forget();
   last_second_.clear();
@@ -133,7 +136,8 @@ IngestReport SinsDr::align(Stamp stamp, const ins::ImuIncrement& raw) {
 }
 
 void SinsDr::start(Stamp stamp) {
-  const Belief<Pose2> at = prior();
+  Belief<Pose2> at = prior();
+  at.mean = at.mean * blind_;
   const bool rested = rest_.time() >= kLeastRest;
   const ins::RestAverage& average = rested ? rest_ : pending_;
   const Eigen::Vector3d origin_map(at.mean.x, at.mean.y, config_.height);
@@ -147,11 +151,12 @@ void SinsDr::start(Stamp stamp) {
   x.nav.coordinates = earth_.coordinates(origin_map + R_map_n * (x.nav.q_n_b * config_.mounts.imu));
   x.wheel_coordinates = x.nav.coordinates;
   const ins::EarthPoint here = x.earth.at(x.nav.coordinates);
+  x.nav.v_n = blind_speed_ * (x.nav.q_n_b * x.rollingDirection());
   if (rested) x.gyro_bias = ins::gyroBiasAtRest(average, here, x.nav.q_n_b);
 
   ins::AlignmentSigmas sigmas;
   sigmas.yaw = std::sqrt(at.covariance(2, 2));
-  sigmas.velocity = rested ? config_.zero_velocity_sigma : 1.0;
+  sigmas.velocity = rested && blind_speed_ == 0.0 ? config_.zero_velocity_sigma : kMovingVelocitySigma;
   sigmas.gyro_bias =
       rested ? config_.imu.gyro_density / std::sqrt(average.time()) : config_.imu.gyro_bias_sigma;
   sigmas.accelerometer_bias = config_.imu.accelerometer_bias_sigma;
@@ -266,7 +271,7 @@ std::optional<Estimate> SinsDr::estimateAt(Stamp stamp) const {
     // Standing at the start, as far as anybody knows.
     if (!given_ && !imu_stamp_) return std::nullopt;
     const Belief<Pose2> at = prior();
-    return planarEstimate(stamp, at.mean, at.covariance, config_.height);
+    return planarEstimate(stamp, at.mean * blind_, at.covariance, config_.height);
   }
   const double dt = std::max(0.0, ageOf(stamp));
   const SinsDrState& x = belief_.mean;

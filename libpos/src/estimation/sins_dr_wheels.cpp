@@ -55,15 +55,19 @@ IngestReport SinsDr::take(Stamp stamp, const OdometryIncrement& odometry) {
   return roll(stamp, {odometry.increment.x - half, odometry.increment.x + half}, dt);
 }
 
-IngestReport SinsDr::rollBlind(Stamp stamp, std::string_view why) {
+/// Before the start there is no attitude: the wheels alone say how far the vehicle has gone.
+IngestReport SinsDr::rollBlind(Stamp stamp, const ins::WheelWay& way, double dt) {
   wheel_stamp_ = stamp;
-  return refusal(Verdict::NotInitialised, why);
+  const double turn = config_.odometer.track > 0.0 ? way.turn(config_.odometer.track) : 0.0;
+  blind_ = blind_ * ins::arc(way.middle(), turn);
+  if (dt > 0.0) blind_speed_ = way.middle() / dt;
+  return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
 }
 
 IngestReport SinsDr::roll(Stamp stamp, const ins::WheelWay& way, double dt) {
   if (dt > 0.0 && std::abs(way.middle()) + std::abs(way.right - way.left) > kWheelsQuiet * dt)
     wheels_turned_ = stamp;
-  if (!running_) return rollBlind(stamp, "standing still to find the level and the gyro bias");
+  if (!running_) return rollBlind(stamp, way, dt);
   const Eigen::Quaterniond q_now =
       belief_.mean.nav.q_n_b *
       quaternionFromRotationVector(

@@ -1,6 +1,7 @@
 #pragma once
 /// Several beliefs about where the vehicle is, kept until one wins.
 
+#include <optional>
 #include <vector>
 
 #include "pos/core/belief.hpp"
@@ -24,6 +25,23 @@ struct RangeReading {
   double variance = 0.0;  ///< m^2
 };
 
+/// A passage fix as a bank takes it. Without a heading the third row and column of the covariance mean
+/// nothing.
+struct FixReading {
+  Eigen::Vector2d p_map = Eigen::Vector2d::Zero();     ///< m
+  std::optional<double> yaw = {};                      ///< rad
+  Matrix<3, 3> covariance = Matrix<3, 3>::Identity();  ///< x, y (m, map axes), yaw (rad)
+  double age = 0.0;                                    ///< s, stamp of the fix minus stamp of the state
+  BodyVelocity odometry_velocity = {};
+};
+
+/// What a fix did to the best hypothesis.
+struct FixCorrection {
+  Verdict verdict = Verdict::Applied;
+  int dof = 0;
+  double nis = 0.0;
+};
+
 /// A bank of hypotheses; never empty once started.
 class RangeBank {
  public:
@@ -44,6 +62,10 @@ class RangeBank {
   /// that believes the range and one that does not; later ranges decide (a Gaussian sum, Alspach and Sorenson
   /// 1972).
   RangeCorrection correct(const RangeLayout& layout, const RangeReading& reading, filters::Gate gate);
+
+  /// Corrects every hypothesis by a fix, gated at the chi-square quantile `confidence`. A fix may be very
+  /// uncertain along one direction (a roadway); then it tells of the other one only.
+  FixCorrection correct(const RangeLayout& layout, const FixReading& fix, double confidence);
 
  private:
   /// Normalises the weights, drops hypotheses that have lost (weight below e^-14 of the best) and joins those

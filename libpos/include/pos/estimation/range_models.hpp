@@ -71,4 +71,9 @@ filters::Innovation<RangeState, 2> positionInnovation(const RangeState& x, const
                                                       const Eigen::Vector2d& p_map, double age,
                                                       const BodyVelocity& odometry_velocity);
 
+/// A position fix with a heading (rad) at the same moment; three rows, the last one's nu in (-pi, pi].
+filters::Innovation<RangeState, 3> poseInnovation(const RangeState& x, const RangeLayout& layout,
+                                                  const Pose2& T_map_body, double age,
+                                                  const BodyVelocity& odometry_velocity);
+
 }  // namespace pos::estimation

@@ -1,7 +1,8 @@
 #pragma once
 /// `range_odometry`: planar EKF on odometry (or constant velocity) and ranges to surveyed anchors, with the
-/// radio's scale, offsets and latency and the odometry's gyro bias and scale estimated on the way.
-/// docs/math/range_odometry.md walks through it in the order of this code.
+/// radio's scale, offsets and latency and the odometry's gyro bias and scale estimated on the way. Passage
+/// fixes (position with its covariance, heading where given) correct it too. docs/math/range_odometry.md
+/// walks through it in the order of this code.
 
 #include <memory>
 #include <optional>
@@ -29,6 +30,7 @@ class RangeOdometry final : public Estimator {
  private:
   IngestReport take(Stamp stamp, const OdometryIncrement& odometry);
   IngestReport take(Stamp stamp, const BeaconRange& range);
+  IngestReport take(Stamp stamp, const PassageFix& fix);
   template <class Other>
   IngestReport take(Stamp, const Other&) {
     return {.verdict = Verdict::Unsupported, .reason = "range_odometry has no use for this kind of reading"};
@@ -44,6 +46,7 @@ class RangeOdometry final : public Estimator {
   std::optional<RangeGeometry> geometryOf(const BeaconRange& range, double age) const;
   IngestReport gather(Stamp stamp, const BeaconRange& range);
   IngestReport correct(Stamp stamp, const BeaconRange& range, const RangeGeometry& geometry);
+  double unknownMotion(double age) const;
   std::string_view openGate(Stamp stamp);
 
   RangeOdometryConfig config_;

@@ -60,7 +60,7 @@ class SinsDr final : public Estimator {
 
   // Wheels.
   IngestReport roll(Stamp stamp, const ins::WheelWay& way, double dt);
-  IngestReport rollBlind(Stamp stamp, std::string_view why);
+  IngestReport rollBlind(Stamp stamp, const ins::WheelWay& way, double dt);
   IngestReport compare(Stamp stamp);
   SlipEvidence evidence(Stamp stamp, double difference_nis) const;
   IngestReport act(Stamp stamp, SlipAction action, const filters::Innovation<SinsDrState, 3>& difference,
@@ -82,6 +82,8 @@ class SinsDr final : public Estimator {
   ins::RestAverage rest_;     // standing, confirmed
   ins::RestAverage pending_;  // the last window, not yet confirmed
   bool moved_early_ = false;
+  Pose2 blind_;               // driven by the wheels before the alignment was over
+  double blind_speed_ = 0.0;  // m/s, at its end
 
   std::optional<Stamp> imu_stamp_;
   ins::ImuIncrement last_increment_;                     // biases off

@@ -1,0 +1,62 @@
+/// Passage fixes in the bank of `range_odometry`.
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "pos/core/chi_square.hpp"
+#include "pos/estimation/range_bank.hpp"
+
+namespace pos::estimation {
+namespace {
+
+constexpr double kOutlierShare = 0.05;
+constexpr double kOutlierReach = 10.0;  // sigmas of the fix over which a bad one is spread evenly
+
+/// log of the likelihood of nu under N(0, S), and of a bad fix spread over `kOutlierReach` sigmas of R,
+/// joined.
+template <int M>
+double logLikelihood(const filters::Correction<M>& c, const Matrix<M, M>& R) {
+  const double good = std::log(1.0 - kOutlierShare) - 0.5 * c.nis - 0.5 * std::log(c.S.determinant()) -
+                      0.5 * M * std::log(2.0 * kPi);
+  const double bad =
+      std::log(kOutlierShare) - 0.5 * std::log(R.determinant()) - M * std::log(2.0 * kOutlierReach);
+  const double top = std::max(good, bad);
+  return top + std::log1p(std::exp(std::min(good, bad) - top));
+}
+
+template <int M>
+filters::Innovation<RangeState, M> innovationOf(const RangeState& x, const RangeLayout& layout,
+                                                const FixReading& fix) {
+  if constexpr (M == 2) {
+    return positionInnovation(x, layout, fix.p_map, fix.age, fix.odometry_velocity);
+  } else {
+    const Pose2 T_map_body{fix.p_map.x(), fix.p_map.y(), *fix.yaw};
+    return poseInnovation(x, layout, T_map_body, fix.age, fix.odometry_velocity);
+  }
+}
+
+template <int M>
+FixCorrection correctOne(RangeHypothesis& h, const RangeLayout& layout, const FixReading& fix,
+                         double confidence) {
+  const Matrix<M, M> R = fix.covariance.topLeftCorner<M, M>();
+  const auto done = filters::correct(h.belief, innovationOf<M>(h.belief.mean, layout, fix), R,
+                                     filters::Gate{chiSquareQuantile(confidence, M)});
+  if (done.verdict != Verdict::Degenerate) h.log_weight += logLikelihood<M>(done, R);
+  return {done.verdict, M, done.nis};
+}
+
+}  // namespace
+
+FixCorrection RangeBank::correct(const RangeLayout& layout, const FixReading& fix, double confidence) {
+  FixCorrection told;
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    RangeHypothesis& h = hypotheses_[i];
+    const FixCorrection done =
+        fix.yaw ? correctOne<3>(h, layout, fix, confidence) : correctOne<2>(h, layout, fix, confidence);
+    if (i == best_) told = done;
+  }
+  settle();
+  return told;
+}
+
+}  // namespace pos::estimation

@@ -1,0 +1,45 @@
+#include "pos/interval/road_aid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pos/core/angle.hpp"
+#include "pos/core/error.hpp"
+#include "road_fix.hpp"
+
+namespace pos::interval {
+
+RoadAidRules validated(RoadAidRules rules) {
+  const bool good = rules.rate > 0.0 && rules.min_move > 0.0 && rules.heading_sigma > 0.0 &&
+                    rules.loose > 0.0 && rules.vertical_sigma > 0.0 && rules.correlation >= 0.0 &&
+                    rules.gate_sigmas > 0.0 && rules.straight >= 0.0;
+  if (!good)
+    throw ConfigError(Complaint{.what = "a rule of the roadway aid is out of range", .expected = "> 0"});
+  return rules;
+}
+
+RoadAid::RoadAid(const map::Network& network, const RoadAidRules& rules)
+    : network_(network), rules_(validated(rules)) {}
+
+std::optional<Measurement> RoadAid::offered(const Estimate& estimate, const RoadTracker& road) {
+  if (road.state() != MatchState::Decided) return std::nullopt;
+  const RoadHypothesis& on = *road.best();
+  const double moved = road.travelled() - last_travelled_;
+  if (last_ && (seconds(estimate.stamp - *last_) < 1.0 / rules_.rate || moved < rules_.min_move))
+    return std::nullopt;
+  if (std::abs(on.foot.curvature) > rules_.straight || on.foot.beyond != 0.0) return std::nullopt;
+  const double across = widthSigma(network_.map().roadways[on.foot.roadway]);
+  if (std::abs(on.foot.offset) > rules_.gate_sigmas * std::hypot(across, on.across_sigma))
+    return std::nullopt;
+  const double alike = last_ ? std::max(1.0, rules_.correlation / moved) : 1.0;
+  const double raised = std::sqrt(alike);
+  last_ = estimate.stamp;
+  last_travelled_ = road.travelled();
+  PassageFix fix = roadFix(on, rules_.loose, raised * across, rules_.vertical_sigma);
+  fix.place = "roadway " + network_.map().roadways[on.foot.roadway].id;
+  fix.yaw = wrapAngle(on.foot.heading + (on.facing ? 0.0 : kPi));
+  fix.yaw_sigma = raised * rules_.heading_sigma;
+  return Measurement{estimate.stamp, kRoadSensor, fix};
+}
+
+}  // namespace pos::interval

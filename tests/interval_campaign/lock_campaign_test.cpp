@@ -1,0 +1,47 @@
+/// The lock safety campaign: a hundred thousand requests by twenty vehicles.
+
+#include <gtest/gtest.h>
+
+#include "pos/core/error.hpp"
+#include "pos/io/map_yaml.hpp"
+#include "support/lock_mine.hpp"
+#include "support/traffic_figures.hpp"
+
+namespace pos::interval {
+namespace {
+
+/// Ways between all ends, and the map's own routes in both directions (a round trip has no shortest way).
+std::vector<Way> allWays(const testing::LockMine& mine) {
+  std::vector<Way> ways = mine.ways();
+  for (const map::Route& route : mine.network.map().routes) {
+    const map::RouteLine line(mine.network, route);
+    ways.push_back(mine.locks.way(line));
+    ways.push_back(mine.locks.way(line.reversed()));
+  }
+  return ways;
+}
+
+void campaign(const testing::LockMine& mine, const testing::TrafficOptions& options) {
+  const auto result = testing::LockTraffic(mine.locks.site(), allWays(mine), options).run();
+  testing::print(result);
+  testing::expectSafe(result);
+  EXPECT_GE(result.tally.requests, options.requests);
+  EXPECT_GE(testing::lockSuccess(result), 0.995);
+}
+
+}  // namespace
+
+TEST(LockCampaign, AHundredThousandRequestsByTwentyVehiclesInTheShiftMine) {
+  const auto none = [](const std::filesystem::path& file) -> map::OccupancyGrid {
+    throw ConfigError(Complaint{.what = "the campaign reads no grids", .got = file.string()});
+  };
+  const auto map = io::loadMap(std::filesystem::path(POS_SOURCE_DIR) / "maps/shift_mine/map.yaml", {}, none);
+  campaign(testing::LockMine(std::make_shared<const map::TunnelMap>(map)),
+           {.seed = 11, .vehicles = 20, .requests = 100000});
+}
+
+TEST(LockCampaign, ThirtyThousandRequestsInASmallCrowdedMine) {
+  campaign(testing::LockMine(testing::lockMine()), {.seed = 11, .vehicles = 20, .requests = 30000});
+}
+
+}  // namespace pos::interval

@@ -1,0 +1,48 @@
+#pragma once
+/// What a run of random traffic has to show, and its figures as a table.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <numeric>
+
+#include "support/lock_traffic.hpp"
+
+namespace pos::testing {
+
+/// Share (0..1) of the locks against which the audit has found nothing.
+inline double lockSuccess(const TrafficResult& r) {
+  return 1.0 -
+         static_cast<double>(std::min(r.findings.size(), r.tally.locks)) / static_cast<double>(r.tally.locks);
+}
+
+inline void expectSafe(const TrafficResult& r) {
+  EXPECT_EQ(r.opposing, 0u);
+  EXPECT_EQ(r.deadlocks, 0u);
+  for (std::size_t i = 0; i < std::min<std::size_t>(r.findings.size(), 5); ++i) {
+    ADD_FAILURE() << secondsSinceOrigin(r.findings[i].stamp) << " s, vehicle " << r.findings[i].vehicle
+                  << ": " << r.findings[i].what;
+  }
+  EXPECT_EQ(r.findings.size(), 0u);
+  EXPECT_EQ(r.tally.trespasses, 0u);
+}
+
+inline void print(const TrafficResult& r) {
+  std::vector<double> waits = r.tally.waits;
+  std::sort(waits.begin(), waits.end());
+  const double mean = std::accumulate(waits.begin(), waits.end(), 0.0) / static_cast<double>(waits.size());
+  std::printf("requests %zu, granted %zu (at once %.1f %%), locks %zu, without finding %.3f %%\n",
+              r.tally.requests, r.tally.granted,
+              100.0 * static_cast<double>(r.tally.granted_at_once) / static_cast<double>(r.tally.granted),
+              r.tally.locks, 100.0 * lockSuccess(r));
+  std::printf("opposing seconds %zu, deadlocks %zu, findings %zu, trespasses %zu\n", r.opposing, r.deadlocks,
+              r.findings.size(), r.tally.trespasses);
+  std::printf("waiting: mean %.1f s, median %.1f s, 95 %% %.1f s, longest %.0f s\n", mean,
+              waits[waits.size() / 2], waits[waits.size() * 95 / 100], waits.back());
+  std::printf("faults met: %zu doubts, %zu silences, %zu restarts, %zu overrides, %zu rejected events\n",
+              r.tally.doubts, r.tally.stale, r.tally.restarts, r.tally.overrides, r.tally.rejected);
+  std::printf("simulated %.1f h, %zu ways finished, %.0f km driven, %zu events\n", r.simulated / 3600.0,
+              r.ways_finished, r.driven / 1000.0, r.tally.events);
+}
+
+}  // namespace pos::testing
