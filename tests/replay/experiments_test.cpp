@@ -1,0 +1,30 @@
+// Configurations that simulate their input, judged like the recordings.
+#include <gtest/gtest.h>
+
+#include "replay/figures.hpp"
+
+namespace pos::replay {
+namespace {
+
+class SimulatedRuns : public ::testing::TestWithParam<const char*> {
+ protected:
+  Bench bench_;
+};
+
+TEST_P(SimulatedRuns, KeepsItsFigures) {
+  const std::string run = GetParam();
+  expectFigures(run, {replayed(bench_, {source("configs/" + run + ".yaml").string()})});
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, SimulatedRuns,
+                         ::testing::Values("simulation/circle", "uwb_demo/campaign",
+                                           "experiments/double_lane_baseline",
+                                           "experiments/encoders_sins/slip"),
+                         [](const auto& named) {
+                           std::string name = named.param;
+                           for (char& c : name) c = c == '/' ? '_' : c;
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace pos::replay
