@@ -167,7 +167,8 @@ double readNumber(const Field& field) {
 }
 
 std::vector<double> readNumbers(const Field& field) {
-  if (field.node.kind != YamlNode::Kind::List) refuse(field, "this is not a list of numbers", "write [1, 2, 3]");
+  if (field.node.kind != YamlNode::Kind::List)
+    refuse(field, "this is not a list of numbers", "write [1, 2, 3]");
   if (field.option.count > 0 && field.node.items.size() != field.option.count) {
     refuse(field, "the list has the wrong length");
   }

@@ -49,7 +49,8 @@ Finding blindFinding(const Network& network, RoadwayIndex r, const Blind& blind,
   return {.check = Check::FewAnchors,
           .severity = Severity::Warning,
           .what = "from chainage " + metres(blind.from) + " to " + metres(blind.to) + " of roadway " + id +
-                  (blind.fewest == 0 ? " no anchor is" : " only " + std::to_string(blind.fewest) + " anchors are") +
+                  (blind.fewest == 0 ? " no anchor is"
+                                     : " only " + std::to_string(blind.fewest) + " anchors are") +
                   " seen, " + std::to_string(needed) + " are asked for",
           .remedy = "add anchors there (pos map plan-anchors proposes places)",
           .objects = {"roadway " + id},

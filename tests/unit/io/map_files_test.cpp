@@ -177,7 +177,8 @@ TEST(MapFiles, BrokenMapsAreBrokenInOneWayOnly) {
   for (const auto& entry : fs::directory_iterator(kRoot / "tests/data/broken_maps")) {
     const Expected expected = expectedOf(fileText(entry.path()));
     for (const map::Finding& finding : map::findings(networkOf(readMapFile(entry.path())), {})) {
-      // A crossing declared upside down is also one that is not declared; reversed stations do not fit either.
+      // A crossing declared upside down is also one that is not declared; reversed stations do not fit
+      // either.
       const bool follows =
           (expected.check == "crossing_not_there" && finding.check == map::Check::UndeclaredCrossing) ||
           (expected.check == "reversed_chainage" && finding.check == map::Check::StationMismatch);

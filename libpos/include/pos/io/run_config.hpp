@@ -85,7 +85,7 @@ struct EvaluationConfig {
 
 /// How many runs of this configuration are taken together (pos campaign).
 struct CampaignConfig {
-  std::optional<double> step;           ///< s between the moments at which runs are compared; absent: 1 / max_rate
+  std::optional<double> step;  ///< s between the moments at which runs are compared; absent: 1 / max_rate
   std::optional<std::string> baseline;  ///< estimator the others are compared with; absent: the first
 
   bool operator==(const CampaignConfig&) const = default;
