@@ -9,9 +9,11 @@
 
 #include <cmath>
 
+#include "pos/core/error.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/io/beacon_map_io.hpp"
 #include "pos/io/grid_io.hpp"
+#include "pos/map/centreline.hpp"
 #include "scratch_folder.hpp"
 #include "support/map_samples.hpp"
 #include "support/mcl_scene.hpp"
