@@ -89,7 +89,7 @@ bends:
 chambers:
   - {id: C1, roadway: R1, chainage_m: 120, name: one, side: left, kind: refuge, length_m: 6, depth_m: 3, capacity: 4, detection_sigma_m: 0.5}
 anchors:
-  - {id: 5, name: A5, x_m: 1.25, y_m: 2.75, z_m: 2.1, survey_sigma_m: 0.01, range_bias_m: 0.15, wall: left, survey_date: 2024-05-01, antenna_delay_s: 5.14e-7}
+  - {id: 5, name: A5, x_m: 1.25, y_m: 2.75, z_m: 2.1, survey_sigma_m: 0.01, range_bias_m: 0.15, wall: left, survey_date: "2024-05-01", antenna_delay_s: 5.14e-07}
 portals:
   - {id: P1, roadway: R1, chainage_m: 100, handover_from_m: 100, handover_to_m: 125}
 lights:
