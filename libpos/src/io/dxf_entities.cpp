@@ -155,7 +155,7 @@ InsertOutcome insertion(const Record& record, DxfEntity entity,
   insert.mirrored = plane == Plane::Down;
   if (!number.trouble().empty()) return {std::nullopt, number.trouble()};
   if (plane == Plane::Tilted) return {std::nullopt, kTilted};
-  if ((insert.scale.array() == 0.0).any()) return {std::nullopt, "scaled to nothing"};
+  if (insert.scale.x() == 0.0 || insert.scale.y() == 0.0) return {std::nullopt, "scaled to nothing"};
   insert.symbol = std::move(entity);
   return {std::move(insert), {}};
 }
@@ -170,7 +170,8 @@ Outcome entityOf(const std::vector<Record>& records, std::size_t& at, DxfEntity 
   if (record.type == "TEXT") return place(record, std::move(start), Kind::Text);
   if (record.type == "LWPOLYLINE") return lightPolyline(record, std::move(start));
   if (record.type == "POLYLINE") return polyline(record, std::move(start), followers(records, at, "VERTEX"));
-  return refused("not read: of no use for a map");
+  const bool curve = record.type == "SPLINE" || record.type == "ELLIPSE" || record.type == "MLINE";
+  return refused(curve ? "not read: convert it to polylines in the drawing program" : "not read");
 }
 
 }  // namespace

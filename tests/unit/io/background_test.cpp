@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "pos/core/error.hpp"
 #include "pos/core/random.hpp"
 #include "scratch_folder.hpp"
 

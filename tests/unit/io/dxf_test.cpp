@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dxf_samples.hpp"
+#include "pos/core/error.hpp"
 #include "scratch_folder.hpp"
 
 namespace pos::io {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pos/core/error.hpp"
 #include "scratch_folder.hpp"
 #include "support/map_samples.hpp"
 

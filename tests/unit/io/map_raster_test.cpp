@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "pos/core/error.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/io/beacon_map_io.hpp"
 #include "pos/io/grid_io.hpp"

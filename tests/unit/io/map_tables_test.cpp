@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "pos/core/angle.hpp"
+#include "pos/core/error.hpp"
 #include "scratch_folder.hpp"
 
 namespace pos::io {
