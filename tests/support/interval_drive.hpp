@@ -254,8 +254,6 @@ inline DriveResult IntervalDrive::run(const DriveOptions& options) const {
   const double dt = 0.1;
   double last_fix = 0.0;
   double fix_heading = 0.0;
-  double fix_yaw_sigma =
-      noise.heading;  // a chamber fixes no heading: the bound begins with what is left of it
   double fix_width = kMainWidth;
   double before_chainage = -1.0;
   map::RoadwayIndex before_road = 0;
@@ -311,7 +309,6 @@ inline DriveResult IntervalDrive::run(const DriveOptions& options) const {
       if (filter.ingest(fix) == Verdict::Applied) {
         last_fix = s;
         fix_heading = heading;
-        fix_yaw_sigma = std::sqrt(filter.estimate(stamp).planarCovariance()(2, 2));
         fix_width = network.map().roadways[place.roadway].width;
       }
       result.trace_grew += filter.tracePosition() > trace * (1.0 + 1e-12) ? 1 : 0;
@@ -342,7 +339,7 @@ inline DriveResult IntervalDrive::run(const DriveOptions& options) const {
                                      .reset_across = fix_width / std::sqrt(12.0),
                                      .scale = noise.scale,
                                      .random_along = noise.odometer * noise.odometer,
-                                     .heading = fix_yaw_sigma,
+                                     .heading = noise.heading,
                                      .gyro_bias = noise.gyro_bias,
                                      .gyro_noise = noise.gyro};
     const double along = interval::alongBound(drift, sample.since_fix);

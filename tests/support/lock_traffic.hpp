@@ -31,6 +31,7 @@ struct TrafficResult {
   std::vector<interval::AuditFinding> findings;
   std::size_t opposing = 0;  ///< seconds in which two bodies opposed each other in one section, by truth
   std::size_t deadlocks = 0;
+  std::string jam = {};  ///< who waited where for what, at a deadlock
   std::size_t ways_finished = 0;
   double simulated = 0.0;  ///< s
   double driven = 0.0;     ///< m, all vehicles
@@ -76,6 +77,7 @@ class LockTraffic {
       quiet = audit_.tally().granted > granted || !somebody_waits ? 0.0 : quiet + 1.0;
       if (quiet > kStuck) {
         ++result_.deadlocks;
+        result_.jam = jam();
         break;
       }
     }
@@ -289,6 +291,25 @@ class LockTraffic {
       ++result_.ways_finished;
     }
     if (v.announce_at < 0.0) tell(interval::Parked{v.shape.vehicle, stopped_at});
+  }
+
+  /// Everybody with a way, and what the engine answers when asked again.
+  std::string jam() {
+    std::string text;
+    for (const Vehicle& v : vehicles_) {
+      if (!v.has_way) continue;
+      const interval::StopPlace& stop = site_->stops[v.way.stops[v.stop].stop];
+      text += "vehicle " + std::to_string(v.shape.vehicle) + " at " + std::to_string(v.d) + " m" +
+              (v.on_road ? " on the road to " : " parked at ") + stop.id + " at " +
+              std::to_string(v.way.stops[v.stop].at) +
+              (engine_.view(v.shape.vehicle).believed ? "" : " (not believed)");
+      const interval::LockEvent again{stampFromSeconds(t_), interval::Request{v.shape.vehicle}};
+      for (const interval::LockRecord& record : engine_.take(again))
+        text +=
+            "; " + std::string(name(record.kind)) + " " + record.reason + " " + std::to_string(record.other);
+      text += "\n";
+    }
+    return text;
   }
 
   void judgeTruth() {

@@ -6,7 +6,9 @@
 namespace pos::interval {
 namespace {
 using Kind = LockRecord::Kind;
-}
+
+constexpr double kRounding = 1e-6;  // m
+}  // namespace
 
 LockAudit::LockAudit(std::shared_ptr<const LockSite> site, const LockRules& rules)
     : site_(std::move(site)), rules_(validated(rules)), guests_(site_->stops.size()) {}
@@ -170,15 +172,17 @@ void LockAudit::checkClear(const LockRecord& record, const Report& report) {
   if (v.doubted) find(record.vehicle, "releases while in doubt");
   const double rear = report.distance - v.shape.rear - rules_.footprint_sigmas * report.sigma;
   const double hysteresis = rules_.release_sigmas * report.sigma + rules_.release_margin;
+  const double front = report.distance + v.shape.front + rules_.footprint_sigmas * report.sigma;
   const bool clear = std::any_of(v.way.sections.begin(), v.way.sections.end(), [&](const WaySection& s) {
-    return s.section == record.section && s.movement == record.movement && s.to <= rear - hysteresis + 1e-9;
+    return s.section == record.section && s.movement == record.movement &&
+           (s.to <= rear - hysteresis + kRounding || s.from >= front - kRounding);
   });
   if (!clear)
     find(record.vehicle, "releases " + site_->sections[record.section].id + " before its rear has cleared");
   if (v.cleared && report.evidence == Report::Evidence::Estimate) {
     const double reach = v.shape.max_speed * seconds(now_ - v.cleared->first) +
                          rules_.jump_sigmas * (report.sigma + v.cleared->second.sigma);
-    if (std::abs(report.distance - v.cleared->second.distance) > reach + 1e-9)
+    if (std::abs(report.distance - v.cleared->second.distance) > reach + kRounding)
       find(record.vehicle, "releases from where it cannot have come");
   }
   v.cleared = {now_, report};
@@ -233,7 +237,7 @@ void LockAudit::slot(const LockRecord& record) {
   double used = -rules_.gap_between;
   for (const Guest& guest : guests) used += guest.length + rules_.gap_between;
   const StopPlace& place = site_->stops[record.stop];
-  if (used > place.length + 1e-9 || static_cast<int>(guests.size()) > place.capacity)
+  if (used > place.length + kRounding || static_cast<int>(guests.size()) > place.capacity)
     find(record.vehicle, "more vehicles in " + place.id + " than it holds");
 }
 
@@ -261,7 +265,8 @@ void LockAudit::checkWhole(const LockEvent& event, const std::vector<LockRecord>
     const Seen& v = seen_[record.vehicle];
     if (!v.stop || *v.stop >= v.way.stops.size()) continue;
     for (const WaySection& s : v.way.sections) {
-      if (s.from < v.way.stops[*v.stop].to && s.to > v.granted_from && v.held.count(s.section) == 0)
+      if (s.from < v.way.stops[*v.stop].to - kRounding && s.to > v.granted_from + kRounding &&
+          v.held.count(s.section) == 0)
         find(record.vehicle, "granted a stop without " + site_->sections[s.section].id + " on the way there");
     }
   }
@@ -275,7 +280,7 @@ void LockAudit::checkBody(const Report& report) {
   const double front = report.distance + v.shape.front - spread;
   const double rear = report.distance - v.shape.rear + spread;
   for (const WaySection& s : v.way.sections) {
-    if (s.from < front - 1e-9 && s.to > rear + 1e-9 && front > rear && v.held.count(s.section) == 0)
+    if (s.from < front - kRounding && s.to > rear + kRounding && front > rear && v.held.count(s.section) == 0)
       find(report.vehicle, "is on " + site_->sections[s.section].id + " without holding it");
   }
 }

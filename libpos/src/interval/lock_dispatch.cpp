@@ -8,10 +8,11 @@
 namespace pos::interval {
 
 SectionRange touched(const Way& way, double from, double to) {
+  constexpr double kTouch = 1e-6;  // m, what rounding may make of a common end
   const auto first = std::find_if(way.sections.begin(), way.sections.end(),
-                                  [&](const WaySection& s) { return s.to > from; });
+                                  [&](const WaySection& s) { return s.to > from + kTouch; });
   const auto last =
-      std::find_if(first, way.sections.end(), [&](const WaySection& s) { return s.from >= to; });
+      std::find_if(first, way.sections.end(), [&](const WaySection& s) { return s.from >= to - kTouch; });
   return {static_cast<std::size_t>(first - way.sections.begin()),
           static_cast<std::size_t>(last - way.sections.begin())};
 }
@@ -92,7 +93,9 @@ std::optional<VehicleId> LockDispatch::inFrontInQueue(const Traveller& v) const 
   const std::size_t place = v.way.stops[v.stop].stop;
   for (const auto& [id, other] : *all_) {
     if (&other == &v || !other.on_road || other.way.stops[other.stop].stop != place) continue;
-    if (!other.believed() || other.stillToGo() < v.stillToGo()) return id;  // unknown: it may be in front
+    const double spread = rules_->footprint_sigmas * std::hypot(v.placeSigma(), other.placeSigma());
+    if (!other.believed() || other.stillToGo() < v.stillToGo() + spread)
+      return id;  // it is, or may be, in front
   }
   return std::nullopt;
 }
@@ -137,7 +140,8 @@ std::optional<Obstacle> LockDispatch::safety(const Traveller& v, std::size_t k) 
     if (&other != &v && !other.believed() && waiterAt(other, other.way.stops[other.stop].stop))
       return Obstacle{Obstacle::Kind::Deadlock, id, "the order of a queue is not known"};
     const double shift = &other == &v ? v.way.stops[k].at - v.way.stops[v.stop].at : 0.0;
-    settled.push_back({&other.way, &other == &v ? k : other.stop, other.stillToGo() + shift});
+    settled.push_back({&other.way, &other == &v ? k : other.stop, other.stillToGo() + shift,
+                       rules_->footprint_sigmas * other.placeSigma()});
   }
   if (everybodyCanFinish(*site_, settled)) return std::nullopt;
   return Obstacle{Obstacle::Kind::Deadlock, -1, "afterwards some could not go on"};

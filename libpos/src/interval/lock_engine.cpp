@@ -99,6 +99,7 @@ class LockEngine::Desk {
   void takeOffRoad(Traveller& v) {
     v.on_road = v.stale = v.alarmed = false;
     v.last.reset();
+    v.strayed.reset();
     v.trust.forget();
     changed_ = true;
   }
@@ -200,6 +201,7 @@ class LockEngine::Desk {
       v.held.clear();
       v.on_road = v.waiting = v.stale = v.alarmed = v.accounted = false;
       v.last.reset();
+      v.strayed.reset();
       v.trust.lose();
     }
     write(Kind::Restarted, -1);
@@ -269,16 +271,26 @@ class LockEngine::Desk {
     changed_ = true;
   }
 
-  /// Some part of the vehicle is beyond what it holds even if all uncertainty is in its favour.
+  /// Some part of the vehicle is beyond its leave even if all uncertainty is in its favour: that road is
+  /// locked at once, and let go again when the vehicle has been back for some time.
   void noteTrespass(Traveller& v) {
     const TrackPoint& at = *v.trust.believed();
     const double spread = rules_.footprint_sigmas * at.sigma;
-    const double front = at.distance + v.shape.front - spread;
-    const double rear = at.distance - v.shape.rear + spread;
-    if (front > v.authority) trespass(v, touched(v.way, v.authority, front));
-    if (rear < v.rear_limit) trespass(v, touched(v.way, rear, v.rear_limit));
-    v.authority = std::max(v.authority, front);
-    v.rear_limit = std::min(v.rear_limit, rear);
+    const double front = at.distance + v.shape.front;
+    const double rear = at.distance - v.shape.rear;
+    const bool beyond = front - spread > v.authority || rear + spread < v.rear_limit;
+    if (front - spread > v.authority) trespass(v, touched(v.way, v.authority, front - spread));
+    if (rear + spread < v.rear_limit) trespass(v, touched(v.way, rear + spread, v.rear_limit));
+    if (beyond || (v.strayed && (front + spread > v.authority || rear - spread < v.rear_limit)))
+      v.strayed = now_;
+    if (v.strayed && seconds(now_ - *v.strayed) >= rules_.steady_for) releaseStrayed(v);
+  }
+  void releaseStrayed(Traveller& v) {
+    v.strayed.reset();
+    const SectionRange own = touched(v.way, v.rear_limit, v.authority);
+    for (std::size_t i = 0; i < v.held.size(); ++i) {
+      if (i < own.first || i >= own.last) release(v, i, "certainly not there");
+    }
   }
   void trespass(Traveller& v, SectionRange range) {
     for (std::size_t i = range.first; i < range.last; ++i) {

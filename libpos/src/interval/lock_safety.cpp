@@ -1,6 +1,7 @@
 #include "pos/interval/lock_safety.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pos::interval {
 namespace {
@@ -13,7 +14,8 @@ bool waitsOnRoad(const LockSite& site, const Settled& v) {
 bool inTheWay(const LockSite& site, const Settled& v, const Settled& other) {
   if (!waitsOnRoad(site, other)) return false;
   const std::size_t place = other.way->stops[other.stop].stop;
-  if (v.way->stops[v.stop].stop == place) return other.still_to_go < v.still_to_go;
+  if (v.way->stops[v.stop].stop == place)
+    return other.still_to_go < v.still_to_go + std::hypot(v.spread, other.spread);
   return std::any_of(v.way->stops.begin() + static_cast<std::ptrdiff_t>(v.stop) + 1, v.way->stops.end(),
                      [&](const WayStop& ahead) { return ahead.stop == place; });
 }

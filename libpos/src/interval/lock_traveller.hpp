@@ -15,11 +15,12 @@ struct Traveller {
   Enrol shape;
   PositionTrust trust;
   Way way = {};
-  std::size_t stop = 0;            ///< index into way.stops it may drive to
-  std::vector<char> held = {};     ///< of each section of the way
-  double rear_limit = 0.0;         ///< m, nothing of it is behind
-  double authority = 0.0;          ///< m, the end of what it holds in front
-  std::optional<TrackPoint> last;  ///< newest report of this way, believed or not
+  std::size_t stop = 0;               ///< index into way.stops it may drive to
+  std::vector<char> held = {};        ///< of each section of the way
+  double rear_limit = 0.0;            ///< m, nothing of it is behind
+  double authority = 0.0;             ///< m, the end of what it holds in front
+  std::optional<TrackPoint> last;     ///< newest report of this way, believed or not
+  std::optional<Stamp> strayed = {};  ///< when it was last where it must not be, or may have been
   Stamp heard = {};
   Stamp waiting_since = {};
   bool on_road = false;
@@ -36,6 +37,8 @@ struct Traveller {
     const double at = trust.believed() ? trust.believed()->distance : rear_limit;
     return way.stops[stop].at - at;
   }
+  /// m, its one-sigma uncertainty.
+  double placeSigma() const { return trust.believed() ? trust.believed()->sigma : 0.0; }
   LockHolder holder(std::size_t index) const { return {shape.vehicle, way.sections[index].movement}; }
 };
 

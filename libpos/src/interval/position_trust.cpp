@@ -45,40 +45,41 @@ void PositionTrust::weigh(const TrackPoint& now, std::optional<double> speed) {
   if (speed && !gap) track_->distance += *speed * dt;
   track_->sigma += slack / rules_.jump_sigmas;
   track_->stamp = now.stamp;
-  const bool agrees =
-      std::abs(now.distance - track_->distance) <= rules_.jump_sigmas * std::hypot(now.sigma, track_->sigma);
+  const double off = std::abs(now.distance - track_->distance) / rules_.jump_sigmas;
+  const bool possible = !gap && off <= std::hypot(now.sigma, track_->sigma);
+  // What the dead reckoning no longer excludes may still be more than two good reports differ by.
+  const bool steady = possible && off <= std::sqrt(2.0) * now.sigma;
   switch (state_) {
     case State::Trusted:
-      if (gap) {
+      if (steady) {
+        adopt(now);
+      } else if (gap || possible) {
         state_ = State::AfterGap;
         restart(now);
-      } else if (agrees) {
-        fuse(now);
       } else {
         state_ = State::AfterJump;
       }
       break;
     case State::AfterGap:
-      if (gap || !agrees) {
-        restart(now);
-      } else {
-        fuse(now);
+      if (steady) {
+        adopt(now);
         if (seconds(now.stamp - steady_since_) >= rules_.steady_for) state_ = State::Trusted;
+      } else {
+        restart(now);
       }
       break;
     case State::AfterJump:
-      if (gap || !agrees || rules_.jump_sigmas * track_->sigma > rules_.jump_slack) break;
+      if (!steady || rules_.jump_sigmas * track_->sigma > rules_.jump_slack) break;
       state_ = State::Trusted;
-      fuse(now);
+      adopt(now);
       break;
   }
 }
 
-void PositionTrust::fuse(const TrackPoint& now) {
-  const double P = track_->sigma * track_->sigma;
-  const double R = now.sigma * now.sigma;
-  if (P + R > 0.0) track_->distance += P / (P + R) * (now.distance - track_->distance);
-  track_->sigma = std::min(track_->sigma, now.sigma);
+/// The better of dead reckoning and report; they are not averaged, because reports err alike for a while and
+/// would pull the track after them.
+void PositionTrust::adopt(const TrackPoint& now) {
+  if (now.sigma <= track_->sigma) track_ = now;
 }
 
 }  // namespace pos::interval

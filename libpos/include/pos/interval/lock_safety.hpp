@@ -11,7 +11,8 @@ namespace pos::interval {
 struct Settled {
   const Way* way = nullptr;
   std::size_t stop = 0;      ///< index into way->stops
-  double still_to_go = 0.0;  ///< m to that stop; who has less is in front
+  double still_to_go = 0.0;  ///< m to that stop; who has less is in front ...
+  double spread = 0.0;  ///< m, ... if the difference is beyond both vehicles' spreads, else either may be
 };
 
 /// True when there is an order in which one vehicle after the other can drive to the end of its way without

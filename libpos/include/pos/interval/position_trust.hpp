@@ -16,11 +16,12 @@ struct TrackPoint {
   double sigma = 0.0;
 };
 
-/// A dead-reckoned belief from the told speeds, corrected by the reports (a scalar Kalman filter that never
-/// thinks itself better than the best single report, since reports err alike for a while). A report beyond
-/// the gate begins a doubt; it ends when a report agrees with the dead reckoning again, while that is still
-/// good for anything, or by a passage. After a gap, which nothing bridges, reports have to be steady for a
-/// time. A position that jumped and stays there is never believed for its steadiness.
+/// Reports are compared with a track that is dead reckoned from the told speeds and taken over by every
+/// report that is better than it; the two are not averaged, since reports err alike for a while. A report
+/// that the track excludes begins a doubt, which ends when a report agrees with the track again, while that
+/// is still good for anything, or by a passage. After a gap, and after a step that only a poor track allows,
+/// reports have to be steady for a time. A position that jumped and stays there is never believed for its
+/// steadiness.
 class PositionTrust {
  public:
   PositionTrust(const LockRules& rules, double max_speed) : rules_(rules), max_speed_(max_speed) {}
@@ -42,12 +43,12 @@ class PositionTrust {
   enum class State { Trusted, AfterGap, AfterJump };
   void weigh(const TrackPoint& now, std::optional<double> speed);
   void restart(const TrackPoint& now);
-  void fuse(const TrackPoint& now);
+  void adopt(const TrackPoint& now);
 
   LockRules rules_;
   double max_speed_ = 0.0;
   State state_ = State::Trusted;
-  std::optional<TrackPoint> track_;  // dead reckoned, corrected
+  std::optional<TrackPoint> track_;  // dead reckoned since the last good report
   std::optional<TrackPoint> believed_;
   Stamp steady_since_ = {};
 };
