@@ -9,7 +9,7 @@ namespace pos::io::dxf {
 namespace {
 
 constexpr int kDeepest = 16;
-constexpr std::size_t kMostSteps = 1'000'000;
+constexpr std::size_t kMostSteps = 200'000;
 
 Eigen::Affine3d placement(const Insert& insert, const Eigen::Vector3d& base, int column, int row) {
   const Eigen::Affine3d turned(Eigen::AngleAxisd(insert.rotation, Eigen::Vector3d::UnitZ()));
@@ -103,7 +103,7 @@ class Expander {
     throw DataError(
         Complaint{.what = "the drawing's blocks multiply to more parts than can be read",
                   .place = {.file = file_},
-                  .expected = "at most a million points",
+                  .expected = "at most 200 000 points",
                   .suggestion = "delete hatching and symbol blocks from the drawing, then save it again"});
   }
 

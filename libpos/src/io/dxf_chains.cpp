@@ -163,6 +163,38 @@ CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices) {
   return made;
 }
 
+std::string shapeKey(const std::vector<map::CentrelinePoint>& points) {
+  std::string there;
+  std::string back;
+  const auto rounded = [](double v) { return std::to_string(std::llround(1e3 * v)) + ","; };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const map::CentrelinePoint& last = points[points.size() - 1 - i];
+    const double arc_back = i + 1 < points.size() ? -points[points.size() - 2 - i].arc : 0.0;
+    const double arc = i + 1 < points.size() ? points[i].arc : 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      there += rounded(points[i].p_map[axis]);
+      back += rounded(last.p_map[axis]);
+    }
+    there += rounded(arc);
+    back += rounded(arc_back);
+  }
+  return std::min(there, back);
+}
+
+PlanBox boxOf(const std::vector<DxfVertex>& vertices) {
+  PlanBox box;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    box.add(vertices[i].p.head<2>());
+    if (vertices[i].bulge == 0.0 || i + 1 == vertices.size()) continue;
+    // The circle around the arc's middle that holds both ends holds the arc.
+    const Eigen::Vector3d middle = middleOfArc(vertices[i].p, vertices[i + 1].p, vertices[i].bulge);
+    const double radius = (vertices[i].p - middle).head<2>().norm();
+    box.add(middle.head<2>().array() - radius);
+    box.add(middle.head<2>().array() + radius);
+  }
+  return box;
+}
+
 double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p) {
   double least = (vertices.front().p - p).head<2>().norm();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {

@@ -22,6 +22,7 @@ struct Named {
   DxfLayerKind kind = DxfLayerKind::Ignore;
   std::string label = {};
   double label_distance = 1e300;
+  PlanBox box = {};
 };
 
 bool isPlace(const DxfEntity& entity) {
@@ -117,11 +118,13 @@ class Import {
 
   /// Every text goes to the nearest object of its kind; an object keeps the nearest of its texts.
   void nameObjects() {
+    for (Named& object : objects_) object.box = boxOf(object.vertices);
     for (const Shape& text : texts_) {
       Named* nearest = nullptr;
       double least = rules_.label_distance;
       for (Named& object : objects_) {
-        if (object.kind != text.kind) continue;
+        if (object.kind != text.kind || object.box.distance(text.vertices.front().p.head<2>()) > least)
+          continue;
         const double distance = distanceTo(object.vertices, text.vertices.front().p);
         if (distance > least) continue;
         least = distance;
@@ -139,8 +142,8 @@ class Import {
   }
 
   void makeRoadways() {
-    std::vector<const Named*> unnamed;
     std::size_t dropped = 0;
+    std::set<std::string> drawn;
     FreshIds ids;
     std::vector<std::pair<const Named*, std::vector<map::CentrelinePoint>>> made;
     for (const Named& object : objects_) {
@@ -148,14 +151,15 @@ class Import {
       CentrelineMade line = centrelineOf(object.vertices);
       dropped += line.dropped;
       const bool good = line.points.size() > 1;
+      const bool fresh = good && drawn.insert(shapeKey(line.points)).second;
       for (const DxfEntity* entity : object.entities) {
-        if (good) {
+        if (fresh) {
           ledger_.used(*entity, "roadway");
         } else {
-          ledger_.left(*entity, "without length in plan");
+          ledger_.left(*entity, good ? "drawn twice" : "without length in plan");
         }
       }
-      if (!good) continue;
+      if (!fresh) continue;
       made.emplace_back(&object, std::move(line.points));
     }
     std::vector<std::string> taken(made.size());
@@ -175,6 +179,7 @@ class Import {
     if (dropped > 0)
       result_.remarks.push_back(std::to_string(dropped) + " points on top of the one before were dropped");
     result_.map.junctions = junctionsFound(result_.map.roadways, rules_.junction_reach);
+    lines_.emplace(result_.map.roadways);
   }
 
   /// The last number in the label, or the next free one.
@@ -198,8 +203,7 @@ class Import {
   }
 
   std::optional<NearestPlace> placeOf(const Named& object) {
-    const auto place =
-        nearestRoadway(result_.map.roadways, middleOf(object.vertices), rules_.roadway_near, 10.0);
+    const auto place = nearestRoadway(*lines_, middleOf(object.vertices), rules_.roadway_near, 10.0);
     if (!place) ledger_.left(*object.entities.front(), "no roadway near this " + nameOf(object.kind));
     return place;
   }
@@ -260,6 +264,7 @@ class Import {
   std::vector<Shape> texts_;
   std::vector<Named> objects_;
   std::vector<Eigen::Vector3d> points_;
+  std::optional<RoadwayLines> lines_;
   std::set<AnchorId> anchor_ids_;
   FreshIds chamber_ids_;
   FreshIds portal_ids_;

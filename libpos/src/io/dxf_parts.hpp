@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "map_assembly.hpp"
 #include "pos/io/dxf_map.hpp"
 
 namespace pos::io::dxf {
@@ -59,6 +60,12 @@ struct CentrelineMade {
   std::size_t dropped = 0;
 };
 CentrelineMade centrelineOf(const std::vector<DxfVertex>& vertices);
+
+/// The same for two centrelines that are drawn over each other, whichever way, to the millimetre.
+std::string shapeKey(const std::vector<map::CentrelinePoint>& points);
+
+/// Holds the whole arcs.
+PlanBox boxOf(const std::vector<DxfVertex>& vertices);
 
 /// Distance in plan from a point to a chain of vertices (one or more), m.
 double distanceTo(const std::vector<DxfVertex>& vertices, const Eigen::Vector3d& p);

@@ -5,14 +5,14 @@
 
 #include "pos/core/error.hpp"
 #include "pos/io/text.hpp"
-#include "pos/map/centreline.hpp"
 
 namespace pos::io {
 namespace {
 
 using map::RoadwayPlace;
 
-constexpr double kLevel = 1.0;         // m of height that still is one level
+constexpr double kLevel = 1.0;  // m of height that still is one level
+constexpr std::size_t kMostRoadways = 20'000;
 constexpr double kLargestLocal = 1e5;  // m from the map's origin
 
 struct Found {
@@ -57,6 +57,24 @@ double snapped(const map::Centreline& line, double chainage, double reach) {
 
 }  // namespace
 
+RoadwayLines::RoadwayLines(const std::vector<map::Roadway>& roadways)
+    : lines(roadways.begin(), roadways.end()) {
+  for (const map::Centreline& line : lines) {
+    PlanBox& box = boxes.emplace_back();
+    for (const map::CentrelineSegment& segment : line.segments()) {
+      const int steps =
+          segment.curvature == 0.0 ? 1 : 16;  // an arc leaves the box of its chords by less than
+      for (int k = 0; k <= steps; ++k) box.add(segment.planAt(segment.plan_length * k / steps));
+      if (segment.curvature == 0.0) continue;
+      // the sagitta of one of them, R (1 - cos(half a step)) <= length * step / 8
+      const double step = segment.plan_length / steps;
+      const double sagitta = 0.125 * step * step * std::abs(segment.curvature);
+      box.add(box.low.array() - sagitta);
+      box.add(box.high.array() + sagitta);
+    }
+  }
+}
+
 std::string FreshIds::take(const std::string& wanted) {
   std::string id = wanted;
   for (int k = 2; taken_.contains(id); ++k) id = wanted + "_" + std::to_string(k);
@@ -65,14 +83,22 @@ std::string FreshIds::take(const std::string& wanted) {
 }
 
 std::vector<map::Junction> junctionsFound(const std::vector<map::Roadway>& roadways, double reach) {
-  std::vector<map::Centreline> lines(roadways.begin(), roadways.end());
+  if (roadways.size() > kMostRoadways) {
+    throw ConfigError(Complaint{.what = "there are too many roadways to look for junctions",
+                                .key = "roadways",
+                                .got = std::to_string(roadways.size()),
+                                .expected = "at most " + std::to_string(kMostRoadways),
+                                .suggestion = "map fewer layers as roadway, or join their lines: --join-m"});
+  }
+  const RoadwayLines made(roadways);
+  const auto& lines = made.lines;
   std::vector<Found> found;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const double end : {lines[i].chainageStart(), lines[i].chainageEnd()}) {
       const Eigen::Vector3d p = lines[i].at(end).p_map;
       std::vector<RoadwayPlace> places{{roadways[i].id, end}};
       for (std::size_t j = 0; j < lines.size(); ++j) {
-        if (j == i) continue;
+        if (j == i || made.boxes[j].distance(p.head<2>()) > reach) continue;
         const map::Centreline::Foot foot = lines[j].foot(p);
         if (std::hypot(foot.offset, foot.beyond) > reach || std::abs(foot.height) > kLevel) continue;
         places.push_back({roadways[j].id, snapped(lines[j], foot.chainage, reach)});
@@ -103,12 +129,13 @@ void requireLocal(const std::vector<Eigen::Vector3d>& points, const std::string&
   }
 }
 
-std::optional<NearestPlace> nearestRoadway(const std::vector<map::Roadway>& roadways,
-                                           const Eigen::Vector3d& p_map, double reach, double level) {
+std::optional<NearestPlace> nearestRoadway(const RoadwayLines& roadways, const Eigen::Vector3d& p_map,
+                                           double reach, double level) {
   std::optional<NearestPlace> nearest;
   double least = reach;
-  for (std::size_t i = 0; i < roadways.size(); ++i) {
-    const map::Centreline::Foot foot = map::Centreline(roadways[i]).foot(p_map);
+  for (std::size_t i = 0; i < roadways.lines.size(); ++i) {
+    if (roadways.boxes[i].distance(p_map.head<2>()) > least) continue;
+    const map::Centreline::Foot foot = roadways.lines[i].foot(p_map);
     const double distance = std::hypot(foot.offset, foot.beyond);
     if (distance > least || std::abs(foot.height) > level) continue;
     least = distance;

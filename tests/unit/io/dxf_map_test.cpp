@@ -137,6 +137,29 @@ TEST(DxfMap, EveryEntityIsCountedOnce) {
   EXPECT_THAT(countsOf(import), HasSubstr("-1 LINE X: layer not mapped"));
 }
 
+TEST(DxfMap, ARoadwayDrawnTwiceIsTakenOnce) {
+  const std::string bent = "0\nLWPOLYLINE\n8\nD\n90\n2\n10\n0\n20\n0\n42\n0.2\n10\n50\n20\n0\n";
+  const std::string back = "0\nLWPOLYLINE\n8\nD\n90\n2\n10\n50\n20\n0\n42\n-0.2\n10\n0\n20\n0\n";
+  const std::string other = "0\nLWPOLYLINE\n8\nD\n90\n2\n10\n50\n20\n0\n42\n0.2\n10\n0\n20\n0\n";
+  const DxfImport import =
+      imported(dxf::file(bent + back + bent + other), {.layers = {{"D", Kind::Roadway}}});
+  EXPECT_EQ(import.map.roadways.size(), 2U);
+  EXPECT_THAT(countsOf(import), HasSubstr("-2 LWPOLYLINE D: drawn twice"));
+}
+
+/// Coming to each roadway in turn would take minutes.
+TEST(DxfMap, ManyRoadwaysAreReadInSeconds) {
+  std::string entities;
+  for (int k = 0; k < 4000; ++k) {
+    const double x = 30.0 * (k % 60), y = 30.0 * (k / 60);
+    entities += dxf::line("D", x, y, x + 30.0, y) + dxf::line("D", x, y, x, y + 30.0) +
+                dxf::text("D", x + 15.0, y, "T");
+  }
+  const DxfImport import = imported(dxf::file(entities), {.layers = {{"D", Kind::Roadway}}});
+  EXPECT_EQ(import.map.roadways.size(), 7998U);  // at two corners of the net exactly two lines meet
+  EXPECT_GT(import.map.junctions.size(), 3900U);
+}
+
 TEST(DxfMap, UnitsAreNeverGuessed) {
   const std::string text = dxf::file(dxf::line("D", 0, 0, 100000, 0));
   const DxfDrawing drawing = parseDxf(text, "plan.dxf");

@@ -50,8 +50,8 @@ struct DxfDrawing {
   bool complete = true;  ///< false: the file ends without EOF
 };
 
-/// Throws DataError for text that is no DXF, for binary DXF, for blocks that multiply to more than a million
-/// parts. Damaged entities are counted as skipped.
+/// Throws DataError for text that is no DXF, for binary DXF, for blocks that multiply to more than
+/// 200 000 points. Damaged entities are counted as skipped.
 DxfDrawing parseDxf(std::string_view text, const std::string& file);
 /// Throws ConfigError for a file that is not there, DataError as above.
 DxfDrawing loadDxf(const std::filesystem::path& file);
