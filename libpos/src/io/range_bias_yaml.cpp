@@ -59,6 +59,7 @@ std::string rangeBiasYaml(const RangeBiasTable& table) {
 }
 
 estimation::DualUwbConfig withTable(estimation::DualUwbConfig config, const RangeBiasTable& table) {
+  config.range_offset = 0.0;  // the table's biases hold all that a link reads too long
   config.range_biases.clear();
   for (const CalibratedLink& link : table.links) config.range_biases.push_back(link.link);
   config.tag_shifts = table.tag_shifts;
