@@ -91,7 +91,7 @@ std::vector<uwb::CalibrationSample> samplesOf(const Inputs& inputs, const DualUw
     const auto pose = poses.at(m->stamp);
     if (!pose) continue;
     samples.push_back({m->stamp, range->tag, range->anchor, *mount, anchor->p_map, *pose, config.body_height,
-                       range->range - anchor->range_bias - config.range_offset});
+                       range->range - anchor->range_bias});
   }
   if (samples.empty()) {
     throw DataError(

@@ -19,6 +19,14 @@ void requireUniqueTags(const std::vector<TagMount>& tags) {
   }
 }
 
+/// A table of biases holds all that a link reads too long: beside it nothing else may say so.
+void requireBiasesOnce(const DualUwbConfig& config) {
+  if (config.range_bias_table.empty()) return;
+  if (config.range_offset == 0.0 && config.range_biases.empty() && config.tag_shifts.empty()) return;
+  refuse("the biases of the ranges are given twice", "range_bias_table", config.range_bias_table,
+         "either the table, or range_offset_m, range_biases and tag_shifts");
+}
+
 void requireCalibration(const CalibrationState& state, const std::string& table, const std::string& unit) {
   const std::string of_unit = unit.empty() ? "" : "_" + unit;
   requireFinite(state.value, prefixed(table, "value" + of_unit));
@@ -199,6 +207,7 @@ DualUwbConfig validated(DualUwbConfig config) {
     refuse("a state for each link needs a filter, and tags that are known beforehand", "link_bias.sigma_m",
            std::to_string(config.link_bias.sigma), "0, or variant filter or filter_gyro with a list of tags");
   }
+  requireBiasesOnce(config);
   requireNotNegative(config.epoch_span, "epoch_span_s");
   requirePositive(config.acceleration_density, "acceleration_density_m_per_s_per_sqrt_s");
   requirePositive(config.yaw_acceleration_density, "yaw_acceleration_density_deg_per_s_per_sqrt_s");

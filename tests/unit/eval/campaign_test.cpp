@@ -129,7 +129,8 @@ TEST(CampaignTotals, EventsAreAddedUp) {
   CampaignRun second = runOf(1, {entry("a", 1.0)});
   first.estimators[0].events = {{"gate opened", 2}};
   second.estimators[0].events = {{"gate opened", 3}, {"lost", 1}};
-  const auto& events = summaryOf({first, second}).estimators.front().events;
+  const CampaignSummary summary = summaryOf({first, second});
+  const auto& events = summary.estimators.front().events;
   EXPECT_EQ(events.at("gate opened"), 5U);
   EXPECT_EQ(events.at("lost"), 1U);
 }

@@ -26,10 +26,9 @@ TEST(RangeBiasYaml, ReadsBackWhatItWrites) {
   EXPECT_EQ(loadRangeBiasTable(file), sampleTable());
 }
 
-TEST(RangeBiasYaml, ReplacesWhatTheConfigurationSays) {
+TEST(RangeBiasYaml, FillsTheBiasesOfTheConfiguration) {
   estimation::DualUwbConfig config;
   config.range_bias_table = "biases.yaml";
-  config.range_biases = {{7, 7, 7.0}};
   const estimation::DualUwbConfig with = withTable(config, sampleTable());
   EXPECT_TRUE(with.range_bias_table.empty());
   ASSERT_EQ(with.range_biases.size(), 2u);
@@ -40,6 +39,17 @@ TEST(RangeBiasYaml, ReplacesWhatTheConfigurationSays) {
   still.motion.reset();
   config.motion_centre_x = 0.5;
   EXPECT_EQ(withTable(config, still).motion_centre_x, 0.5) << "no motion was calibrated";
+}
+
+TEST(RangeBiasYaml, ATableBesideBiasesOfTheConfigurationIsRefused) {
+  estimation::DualUwbConfig config;
+  config.range_bias_table = "biases.yaml";
+  EXPECT_NO_THROW((void)estimation::validated(config));
+  config.range_offset = 0.15;
+  EXPECT_THROW((void)estimation::validated(config), ConfigError);
+  config.range_offset = 0.0;
+  config.range_biases = {{7, 7, 7.0}};
+  EXPECT_THROW((void)estimation::validated(config), ConfigError);
 }
 
 TEST(RangeBiasYaml, AMistypedKeyIsRefused) {

@@ -213,7 +213,7 @@ struct DualUwbConfig {
   double range_sigma = 0.05;              ///< m
   double range_offset = 0.0;              ///< m, subtracted from every range
   CalibrationState link_bias{0, 0, 0};    ///< m, one state for each tag and anchor (filters only)
-  std::string range_bias_table;           ///< file; its content replaces the two lists below
+  std::string range_bias_table;           ///< file that holds range_biases and tag_shifts
   std::vector<LinkBias> range_biases;     ///< subtracted from the ranges of one link
   std::vector<TagShift> tag_shifts;       ///< added to the places of tags
   double epoch_span = 0.04;               ///< s, ranges within it count as taken at once (not the filters)
