@@ -11,7 +11,7 @@ TEST(LockTraffic, RandomTrafficNeverOpposesInOneBlockAndNeverJams) {
   const testing::LockMine mine(testing::lockMine());
   const std::vector<Way> ways = mine.ways();
   ASSERT_GE(ways.size(), 12u);
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const auto result =
         testing::LockTraffic(mine.locks.site(), ways, {.seed = seed, .vehicles = 20, .requests = 1500}).run();
     testing::print(result);
