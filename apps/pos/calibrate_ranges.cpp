@@ -5,7 +5,7 @@
 #include "pos/core/error.hpp"
 #include "pos/eval/association.hpp"
 #include "pos/io/rawlog_reader.hpp"
-#include "pos/uwb/range_calibration.hpp"
+#include "pos/uwb/motion_calibration.hpp"
 
 namespace pos::app {
 namespace {
@@ -126,10 +126,12 @@ RangeCalibrationOutcome calibratedRanges(const Inputs& inputs, const RangeCalibr
   for (const uwb::TagCalibration& tag : found.tags) {
     outcome.table.tag_shifts.push_back({tag.tag, tag.shift.x(), tag.shift.y()});
   }
+  outcome.table.errors =
+      io::CalibratedErrors{found.errors.reading_sigma, found.errors.lasting_sigma, found.errors.lasting_time};
   const uwb::MotionCalibration motion = uwb::calibratedMotion(poses.all());
   if (motion.samples > 0) {
-    outcome.table.motion = io::CalibratedMotion{motion.centre_x, motion.course_offset};
-    outcome.motion_residual = motion.residual_sigma;
+    outcome.table.motion = io::CalibratedMotion{motion.centre_x, motion.course_offset,
+                                                motion.acceleration_density, motion.yaw_acceleration_density};
   }
   return outcome;
 }

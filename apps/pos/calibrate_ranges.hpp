@@ -6,6 +6,7 @@
 
 #include "inputs.hpp"
 #include "pos/io/range_bias_yaml.hpp"
+#include "pos/uwb/range_calibration.hpp"
 
 namespace pos::app {
 
@@ -14,7 +15,8 @@ struct RangeCalibrationRequest {
   double first = 0.0;     ///< s from the first known pose (still: the first range); 0 = all of the log
   std::optional<Pose2>
       still;  ///< the pose that the vehicle keeps; otherwise the truth's poses are the known ones
-  double shift_sigma = 0.02;  ///< m, how far a tag's electrical place may lie from its mount
+  double shift_sigma =
+      uwb::CalibrationOptions{}.shift_sigma;  ///< m, how far a tag's electrical place may lie from its mount
 };
 
 struct RangeCalibrationOutcome {
@@ -22,7 +24,6 @@ struct RangeCalibrationOutcome {
   double residual_sigma = 0.0;  ///< m
   int samples = 0;
   int outliers = 0;
-  double motion_residual = 0.0;  ///< m/s, sideways velocity left unexplained
 };
 
 /// Throws UsageError when no estimator of type dual_uwb is there, DataError when there are no poses or no

@@ -122,9 +122,7 @@ void refuseUnknownMetrics(const std::vector<std::string>& requirements,
     nothing_yet.estimators.back().name = name;
   }
   for (const std::string& text : requirements) {
-    const bool names_a_sensor =
-        text.find("nis_") != std::string::npos || text.find("sensors.") != std::string::npos;
-    if (!names_a_sensor) (void)eval::parseRequirement(text, nothing_yet);
+    if (!eval::isOfASensor(text)) (void)eval::parseRequirement(text, nothing_yet);
   }
 }
 

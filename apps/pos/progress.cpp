@@ -11,8 +11,10 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_came = 0;
 
-void onInterrupt(int) {
+/// The first asks for an end in good order, the second ends at once.
+void onInterrupt(int signal) {
   interrupt_came = 1;
+  std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
@@ -40,6 +42,7 @@ void ProgressLine::draw(std::uint64_t measurements, Stamp stamp) {
 
 void watchInterrupts() {
   std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
 }
 
 bool interrupted() {

@@ -32,7 +32,8 @@ class ProgressLine {
   std::optional<Stamp> end_;
 };
 
-/// From now on an interrupt (Ctrl-C) ends the work at hand in good order instead of the program.
+/// From now on an interrupt (Ctrl-C) or a request to end ends the work at hand in good order instead of the
+/// program; a second one ends the program.
 void watchInterrupts();
 bool interrupted();
 

@@ -124,10 +124,18 @@ ExitCode runRanges(RangeOptions options, const Voice& voice) {
   std::snprintf(text, sizeof text, "%zu links from %d ranges, %d left out as outliers; residuals %.3f m",
                 outcome.table.links.size(), outcome.samples, outcome.outliers, outcome.residual_sigma);
   voice.say(text);
+  std::snprintf(text, sizeof text, "of these %.3f m are new in every reading, %.3f m last %.1f s",
+                outcome.table.errors->range_sigma, outcome.table.errors->lasting_sigma,
+                outcome.table.errors->lasting_time);
+  voice.say(text);
   if (outcome.table.motion) {
     std::snprintf(text, sizeof text,
                   "turns about a point %.3f m behind the body frame, course %.2f deg from its x axis",
                   outcome.table.motion->centre_x, degrees(outcome.table.motion->course_offset));
+    voice.say(text);
+    std::snprintf(text, sizeof text, "speed and yaw rate wander by %.2f m/s and %.1f deg/s per sqrt(s)",
+                  outcome.table.motion->acceleration_density,
+                  degrees(outcome.table.motion->yaw_acceleration_density));
     voice.say(text);
   }
   return ExitCode::Ok;

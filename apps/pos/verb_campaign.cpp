@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
@@ -13,17 +12,10 @@
 #include "pos/core/error.hpp"
 #include "pos/eval/campaign_requirement.hpp"
 #include "pos/report/text.hpp"
+#include "progress.hpp"
 
 namespace pos::app {
 namespace {
-
-volatile std::sig_atomic_t stop_asked = 0;
-
-/// The first asks for a clean end, the second ends at once.
-void onStop(int signal) {
-  stop_asked = 1;
-  std::signal(signal, SIG_DFL);
-}
 
 struct Options {
   InputOptions inputs;
@@ -148,8 +140,7 @@ ExitCode runCampaign(const Options& options, const Voice& voice) {
       folder.empty() ? std::make_unique<RunRecords>() : std::make_unique<RunRecords>(folder);
   const std::vector<std::uint64_t> runs = missingRuns(options.runs, shard, *records);
   const int jobs = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
-  std::signal(SIGINT, onStop);
-  std::signal(SIGTERM, onStop);
+  watchInterrupts();
   const auto begin = std::chrono::steady_clock::now();
   const std::size_t done = [&] {
     const RunLine line(voice, runs.size());
@@ -160,7 +151,7 @@ ExitCode runCampaign(const Options& options, const Voice& voice) {
           voice.detail("run " + std::to_string(run) + " is done");
           line.draw(count);
         },
-        [] { return stop_asked != 0; });
+        interrupted);
   }();
   const auto spent = std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - begin);
   voice.say((options.shard.empty() ? "" : "shard " + options.shard + ": ") + countText(done) + " in " +

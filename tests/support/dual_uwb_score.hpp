@@ -1,7 +1,11 @@
 #pragma once
 /// An estimator along a run of dual_uwb_runs.hpp, judged against the formula.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Cholesky>
+#include <string>
+#include <vector>
 
 #include "pos/estimation/factory.hpp"
 #include "support/dual_uwb_runs.hpp"
@@ -73,6 +77,31 @@ inline DualUwbScore pooled(const std::vector<DualUwbScore>& scores) {
     *squares = std::sqrt(*squares / n);
   for (double* total : {&sum.x_max, &sum.y_max, &sum.yaw_max, &sum.nees}) *total /= n;
   return sum;
+}
+
+inline DualUwbScore onDoubleLane(const estimation::DualUwbConfig& config, const DualUwbRunOptions& options,
+                                 double from = 3.0) {
+  const auto site = doubleLaneSite();
+  const auto drive = doubleLaneDrive();
+  return scored(config, site, drive, dualUwbRun(site, drive, options), from);
+}
+
+inline double diagnostic(const estimation::Estimator& estimator, const std::string& name) {
+  for (const auto& value : estimator.diagnostics()) {
+    if (value.name == name) return value.value;
+  }
+  ADD_FAILURE() << "no " << name;
+  return 0.0;
+}
+
+/// Ingests a run; returns the events told, in order.
+inline std::vector<std::string> drive(estimation::Estimator& estimator, const std::vector<Measurement>& log) {
+  std::vector<std::string> events;
+  for (const Measurement& m : log) {
+    const IngestReport report = estimator.ingest(m);
+    if (!report.event.empty()) events.emplace_back(report.event);
+  }
+  return events;
 }
 
 }  // namespace pos::testing

@@ -7,18 +7,15 @@ bool AnchorWatch::blocked(int anchor, Stamp stamp) const {
   return state.blocked_until && stamp < *state.blocked_until;
 }
 
-int AnchorWatch::heardLately(Stamp stamp) const {
+AnchorWatch::Heard AnchorWatch::heardLately(Stamp stamp) const {
   const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
-  int count = 0;
-  for (const State& state : anchors_) count += state.heard && *state.heard >= lately ? 1 : 0;
-  return count;
-}
-
-int AnchorWatch::disagreeing(Stamp stamp) const {
-  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
-  int count = 0;
-  for (const State& state : anchors_) count += state.heard && *state.heard >= lately && !state.agrees ? 1 : 0;
-  return count;
+  Heard heard;
+  for (const State& state : anchors_) {
+    if (!state.heard || *state.heard < lately) continue;
+    ++heard.anchors;
+    heard.disagreeing += state.agrees ? 0 : 1;
+  }
+  return heard;
 }
 
 AnchorWatch::Finding AnchorWatch::note(int anchor, Stamp stamp, std::optional<Verdict> tested) {
@@ -47,15 +44,9 @@ AnchorWatch::Finding AnchorWatch::note(int anchor, Stamp stamp, std::optional<Ve
 
 /// Of the anchors heard lately, enough agree.
 bool AnchorWatch::agreement(Stamp stamp) const {
-  const Stamp lately = stamp - durationFromSeconds(config_.restart_after);
-  int heard = 0;
-  int agreeing = 0;
-  for (const State& state : anchors_) {
-    if (!state.heard || *state.heard < lately) continue;
-    ++heard;
-    agreeing += state.agrees ? 1 : 0;
-  }
-  return agreeing > 0 && agreeing >= config_.agreement_fraction * heard;
+  const Heard heard = heardLately(stamp);
+  const int agreeing = heard.anchors - heard.disagreeing;
+  return agreeing > 0 && agreeing >= config_.agreement_fraction * heard.anchors;
 }
 
 void AnchorWatch::forget() {

@@ -39,6 +39,51 @@ void requireCalibration(const CalibrationState& state, const std::string& table,
   }
 }
 
+/// Biases and shifts that are numbers, each given once.
+void requireRangeBiases(const DualUwbConfig& config) {
+  std::set<std::pair<TagId, AnchorId>> links;
+  for (std::size_t i = 0; i < config.range_biases.size(); ++i) {
+    const LinkBias& link = config.range_biases[i];
+    const std::string key = "range_biases[" + std::to_string(i) + "]";
+    requireFinite(link.bias, key + ".bias_m");
+    if (!links.emplace(link.tag, link.anchor).second) {
+      refuse("a link's bias is given twice", key,
+             "tag " + std::to_string(link.tag) + ", anchor " + std::to_string(link.anchor),
+             "every link once");
+    }
+  }
+  std::set<TagId> shifted;
+  for (std::size_t i = 0; i < config.tag_shifts.size(); ++i) {
+    const TagShift& shift = config.tag_shifts[i];
+    const std::string key = "tag_shifts[" + std::to_string(i) + "]";
+    requireFinite(shift.x, key + ".x_m");
+    requireFinite(shift.y, key + ".y_m");
+    if (!shifted.insert(shift.id).second)
+      refuse("a tag's shift is given twice", key + ".id", std::to_string(shift.id), "every tag once");
+  }
+}
+
+/// Sensors and constraints that the chosen variant would pass over in silence.
+void requireUse(const DualUwbConfig& config, bool filter) {
+  if (config.wheel_speed_sigma > 0.0 && !filter) {
+    refuse("only the filters use wheel speeds", "wheel_speed_sigma_m_per_s",
+           std::to_string(config.wheel_speed_sigma), "0, or variant filter or filter_gyro");
+  }
+  if (config.lateral_sigma > 0.0 && (!filter || config.motion != DualUwbConfig::Motion::Free)) {
+    refuse("only free motion of a filter is held to the wheels' course", "lateral_sigma_m_per_s",
+           std::to_string(config.lateral_sigma), "0, or motion free of variant filter or filter_gyro");
+  }
+}
+
+void requireLinkBias(const LinkBiasState& bias) {
+  requireCalibration({bias.value, bias.sigma, bias.walk_per_sqrt_s}, "link_bias", "m");
+  requireNotNegative(bias.time, "link_bias.time_s");
+  if (bias.time > 0.0 && !(bias.sigma > 0.0 && bias.walk_per_sqrt_s == 0.0)) {
+    refuse("a bias that forgets itself needs a sigma, and does not wander as well", "link_bias.time_s",
+           std::to_string(bias.time), "0, or sigma_m above 0 and no walk_m_per_sqrt_s");
+  }
+}
+
 void requireOneSensor(bool use_ranges, bool use_scans) {
   if (!use_ranges && !use_scans) {
     refuse("neither ranges nor scans are used", "use_ranges", "false", "use_ranges or use_scans true");
@@ -201,20 +246,24 @@ DualUwbConfig validated(DualUwbConfig config) {
   requireFinite(config.body_height, "body_height_m");
   requirePositive(config.range_sigma, "range_sigma_m");
   requireFinite(config.range_offset, "range_offset_m");
-  requireCalibration(config.link_bias, "link_bias", "m");
+  requireLinkBias(config.link_bias);
   requireCalibration(config.gyro_bias, "gyro_bias", "deg_per_s");
   if (config.link_bias.sigma > 0.0 && (!filter || config.tags.empty())) {
     refuse("a state for each link needs a filter, and tags that are known beforehand", "link_bias.sigma_m",
            std::to_string(config.link_bias.sigma), "0, or variant filter or filter_gyro with a list of tags");
   }
   requireBiasesOnce(config);
+  requireRangeBiases(config);
   requireNotNegative(config.epoch_span, "epoch_span_s");
   requirePositive(config.acceleration_density, "acceleration_density_m_per_s_per_sqrt_s");
   requirePositive(config.yaw_acceleration_density, "yaw_acceleration_density_deg_per_s_per_sqrt_s");
   requirePositive(config.max_speed, "max_speed_m_per_s");
   requirePositive(config.max_yaw_rate, "max_yaw_rate_deg_per_s");
+  requireFinite(config.motion_centre_x, "motion_centre_x_m");
+  requireFinite(config.course_offset, "course_offset_deg");
   requireNotNegative(config.lateral_sigma, "lateral_sigma_m_per_s");
   requireNotNegative(config.wheel_speed_sigma, "wheel_speed_sigma_m_per_s");
+  requireUse(config, filter);
   requireNotNegative(config.gyro_noise, "gyro_noise_deg_per_sqrt_s");
   if (!(config.fit_significance > 0.0 && config.fit_significance < 0.5)) {
     refuse("the residual test needs a significance", "fit_significance",
@@ -223,6 +272,10 @@ DualUwbConfig validated(DualUwbConfig config) {
   if (config.roadway.size() == 1 || config.roadway.size() == 2) {
     refuse("these corners enclose no ground", "roadway", std::to_string(config.roadway.size()) + " corners",
            "at least three, or none");
+  }
+  for (const Eigen::Vector2d& corner : config.roadway) {
+    requireFinite(corner.x(), "roadway.x_m");
+    requireFinite(corner.y(), "roadway.y_m");
   }
   return config;
 }

@@ -9,7 +9,6 @@
 namespace pos::estimation {
 namespace {
 
-constexpr double kAmbiguous = 13.8;          // difference of chi^2 from which a pose is ruled out (1 in 1000)
 constexpr double kTurnedRound = 0.75 * kPi;  // rad, no vehicle turns as far between two epochs
 
 double square(double value) {
@@ -18,6 +17,10 @@ double square(double value) {
 
 IngestReport refusal(Verdict verdict, std::string_view reason) {
   return {.verdict = verdict, .reason = reason};
+}
+
+bool cheaper(const EpochPose& a, const EpochPose& b) {
+  return a.cost < b.cost;
 }
 
 /// What a pose may have become in dt seconds of unknown motion.
@@ -32,20 +35,11 @@ Matrix<3, 3> unknownMotion(const DualUwbConfig& config, double dt) {
 DualUwbEpochs::DualUwbEpochs(const DualUwbConfig& config, std::shared_ptr<const map::TunnelMap> map)
     : config_(config), roadway_(config, map), links_(config, *map), test_(config.fit_significance) {
   if (config.start.mode != StartMode::Known) return;
-  EpochFix start;
-  start.poses[0].mean = config.start.pose;
-  start.poses[0].covariance.diagonal() << square(config.start.position_sigma),
-      square(config.start.position_sigma), square(config.start.yaw_sigma);
-  start.count = 1;
-  current_ = start;  // its stamp is that of the first range
+  current_ = EpochFix{{}, {{.pose = knownStart(config.start)}}};  // its stamp is that of the first range
 }
 
 void DualUwbEpochs::reset(Stamp stamp, const Belief<Pose2>& prior) {
-  EpochFix start;
-  start.stamp = stamp;
-  start.poses[0] = prior;
-  start.count = 1;
-  current_ = previous_ = start;
+  current_ = previous_ = EpochFix{stamp, {{.pose = prior}}};
   twist_.reset();
   solved_ = false;
   epoch_.clear();
@@ -105,8 +99,8 @@ std::string_view DualUwbEpochs::solve() {
   if (!fix) return {};
   *fix = resolved(*fix);
   std::string_view event;
-  if (previous_ && fix->count == 1 && previous_->count == 1 &&
-      std::abs(wrapAngle(fix->poses[0].mean.yaw - previous_->poses[0].mean.yaw)) > kTurnedRound &&
+  if (previous_ && fix->certain() && previous_->certain() &&
+      std::abs(wrapAngle(fix->best().mean.yaw - previous_->best().mean.yaw)) > kTurnedRound &&
       fix->stamp - previous_->stamp < durationFromSeconds(1.0)) {
     ++turned_round_;
     event = "heading turned round from one epoch to the next: are the tags swapped?";
@@ -123,141 +117,117 @@ std::optional<EpochFix> DualUwbEpochs::rigidFix() const {
   if (fixes.count == 0) return std::nullopt;
   fixes = uwb::keptInside(
       fixes, [&](const uwb::RigidFix& fix) { return roadway_.inside(fix.pose.mean.translation()); });
-  EpochFix result{.stamp = epoch_.middle()};
-  for (const uwb::RigidFix& fix : fixes.all()) {
-    const auto k = static_cast<std::size_t>(result.count++);
-    result.poses[k] = fix.pose;
-    result.costs[k] = fix.chi_square;
-  }
+  EpochFix result{epoch_.middle(), {}};
+  for (const uwb::RigidFix& fix : fixes.all())
+    result.poses.push_back({.pose = fix.pose, .cost = fix.chi_square});
   return result;
+}
+
+/// The first two tags; left and right as the configuration or the log lists them.
+uwb::TagPair DualUwbEpochs::pair() const {
+  return {links_.tag(0).p_body.head<2>(), links_.tag(1).p_body.head<2>()};
+}
+
+/// Every place of one tag that its ranges of the epoch fit.
+uwb::TagFixes DualUwbEpochs::tagFixes(const TagMount& tag) const {
+  std::array<uwb::TagRange, uwb::kMaxRanges> ranges;
+  std::size_t count = 0;
+  for (const uwb::BodyRange& range : epoch_.ranges()) {
+    if (range.tag != tag.id) continue;
+    ranges[count++] = uwb::tagRange(range, config_.body_height);
+  }
+  const uwb::TagFixes fixes = uwb::multilaterated({ranges.data(), count}, test_);
+  return uwb::keptInside(fixes, [&](const uwb::TagFix& fix) { return roadway_.inside(fix.p_map); });
 }
 
 /// Both tags by themselves; of their mirror images those that fit the baseline.
 std::optional<EpochFix> DualUwbEpochs::snapshotFix() const {
   if (links_.tags() < 2) return std::nullopt;
-  std::array<std::array<uwb::TagRange, uwb::kMaxRanges>, 2> ranges;
-  std::array<std::size_t, 2> counts{};
-  for (const uwb::BodyRange& range : epoch_.ranges()) {
-    for (std::size_t t = 0; t < 2; ++t) {
-      const TagMount& tag = links_.tag(static_cast<int>(t));
-      if (range.tag != tag.id) continue;
-      ranges[t][counts[t]++] = {range.anchor_map.head<2>(),
-                                range.anchor_map.z() - config_.body_height - tag.p_body.z(), range.range,
-                                range.sigma};
-    }
-  }
-  std::array<uwb::TagFixes, 2> fixes;
-  for (std::size_t t = 0; t < 2; ++t) {
-    fixes[t] = uwb::multilaterated({ranges[t].data(), counts[t]}, test_);
-    fixes[t] = uwb::keptInside(fixes[t], [&](const uwb::TagFix& fix) { return roadway_.inside(fix.p_map); });
-  }
-  const uwb::TagPair pair{links_.tag(0).p_body.head<2>(), links_.tag(1).p_body.head<2>()};
-  EpochFix result{.stamp = epoch_.middle()};
-  for (const uwb::TagFix& left : fixes[0].all()) {
-    for (const uwb::TagFix& right : fixes[1].all()) {
-      const uwb::TagPosition at_left{left.p_map, left.covariance};
-      const uwb::TagPosition at_right{right.p_map, right.covariance};
-      const auto snapshot = uwb::snapshotPose(at_left, at_right, pair);
+  const uwb::TagFixes lefts = tagFixes(links_.tag(0));
+  const uwb::TagFixes rights = tagFixes(links_.tag(1));
+  EpochFix result{epoch_.middle(), {}};
+  for (const uwb::TagFix& left : lefts.all()) {
+    for (const uwb::TagFix& right : rights.all()) {
+      const auto snapshot =
+          uwb::snapshotPose({left.p_map, left.covariance}, {right.p_map, right.covariance}, pair());
       if (!snapshot) continue;
       const double cost = left.chi_square + right.chi_square + snapshot->baseline_chi_square;
-      auto k = static_cast<std::size_t>(result.count++);
-      for (; k > 0 && cost < result.costs[k - 1]; --k) {
-        result.poses[k] = result.poses[k - 1];
-        result.costs[k] = result.costs[k - 1];
-        result.left[k] = result.left[k - 1];
-        result.right[k] = result.right[k - 1];
-      }
-      result.poses[k] = snapshot->pose;
-      result.costs[k] = cost;
-      result.left[k] = at_left;
-      result.right[k] = at_right;
+      result.poses.push_back({snapshot->pose, cost, left.p_map, right.p_map});
     }
   }
-  if (result.count == 0) return std::nullopt;
-  while (result.count > 1 &&
-         result.costs[static_cast<std::size_t>(result.count) - 1] > result.costs[0] + kAmbiguous) {
-    --result.count;
-  }
+  if (result.poses.empty()) return std::nullopt;
+  std::stable_sort(result.poses.begin(), result.poses.end(), cheaper);
+  const double most = result.poses.front().cost + uwb::kRuledOut;
+  std::erase_if(result.poses, [&](const EpochPose& p) { return p.cost > most; });
   return result;
 }
 
 /// Of several poses those that the last epoch's pose can have become; all of them where that one was not sure
 /// itself, then the one next to it first, so that the answer does not jump from image to image.
 EpochFix DualUwbEpochs::resolved(EpochFix fix) const {
-  if (fix.count < 2 || !previous_) return fix;
-  const double dt = seconds(fix.stamp - previous_->stamp);
-  std::array<double, 4> distance{};
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fix.count); ++k) {
-    const Matrix<3, 3> S =
-        fix.poses[k].covariance + previous_->poses[0].covariance + unknownMotion(config_, dt);
-    const Vector<3> apart = minus(fix.poses[k].mean, previous_->poses[0].mean);
-    distance[k] = fix.costs[k] + apart.dot(S.llt().solve(apart));
-  }
-  const auto nearest = std::min_element(distance.begin(), distance.begin() + fix.count);
-  if (previous_->count > 1) {
-    const auto k = static_cast<std::size_t>(nearest - distance.begin());
-    std::swap(fix.poses[0], fix.poses[k]);
-    std::swap(fix.costs[0], fix.costs[k]);
-    std::swap(fix.left[0], fix.left[k]);
-    std::swap(fix.right[0], fix.right[k]);
+  if (fix.certain() || !previous_) return fix;
+  const Matrix<3, 3> moved = unknownMotion(config_, seconds(fix.stamp - previous_->stamp));
+  const Belief<Pose2>& before = previous_->best();
+  const auto distance = [&](const EpochPose& p) {
+    const Matrix<3, 3> S = p.pose.covariance + before.covariance + moved;
+    const Vector<3> apart = minus(p.pose.mean, before.mean);
+    return p.cost + apart.dot(S.llt().solve(apart));
+  };
+  if (!previous_->certain()) {
+    std::iter_swap(fix.poses.begin(), std::min_element(fix.poses.begin(), fix.poses.end(),
+                                                       [&](const EpochPose& a, const EpochPose& b) {
+                                                         return distance(a) < distance(b);
+                                                       }));
     return fix;
   }
-  const double least = *nearest;
-  EpochFix kept = fix;
-  kept.count = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(fix.count); ++k) {
-    if (distance[k] > least + kAmbiguous) continue;
-    const auto place = static_cast<std::size_t>(kept.count++);
-    kept.poses[place] = fix.poses[k];
-    kept.costs[place] = distance[k] - least;
-    kept.left[place] = fix.left[k];
-    kept.right[place] = fix.right[k];
-  }
-  return kept;
+  for (EpochPose& p : fix.poses) p.cost = distance(p);
+  const double least = std::min_element(fix.poses.begin(), fix.poses.end(), cheaper)->cost;
+  std::erase_if(fix.poses, [&](const EpochPose& p) { return p.cost > least + uwb::kRuledOut; });
+  for (EpochPose& p : fix.poses) p.cost -= least;
+  return fix;
 }
 
 /// The paper's mapping: the pose is the one before plus what both tags advanced.
 void DualUwbEpochs::differentiate(EpochFix& fix) {
-  const uwb::TagPair pair{links_.tag(0).p_body.head<2>(), links_.tag(1).p_body.head<2>()};
+  EpochPose& best = fix.poses.front();
   if (mapper_previous_) {
     mapper_current_ = mapper_previous_;
-    mapper_current_->advance(fix.left[0].p_map, fix.right[0].p_map);
+    mapper_current_->advance(best.left_map, best.right_map);
   } else {
     // a start that was given holds; its error stays, since nothing but increments is used from then on
-    const Pose2 start = previous_ ? previous_->poses[0].mean : fix.poses[0].mean;
-    mapper_current_.emplace(start, pair, fix.left[0].p_map, fix.right[0].p_map);
+    const Pose2 start = previous_ ? previous_->best().mean : best.pose.mean;
+    mapper_current_.emplace(start, pair(), best.left_map, best.right_map);
   }
-  fix.poses[0].mean = mapper_current_->pose();
+  best.pose.mean = mapper_current_->pose();
 }
 
 /// Equation 5 of the paper, in body axes at the later pose: differences over the time between.
 std::optional<PlanarTwist> DualUwbEpochs::twistBetween(const EpochFix& before, const EpochFix& now) const {
   const double dt = seconds(now.stamp - before.stamp);
-  if (!(dt > 0.0) || before.count != 1 || now.count != 1) return std::nullopt;
-  const Vector<3> change = minus(now.poses[0].mean, before.poses[0].mean) / dt;
+  if (!(dt > 0.0) || !before.certain() || !now.certain()) return std::nullopt;
+  const Vector<3> change = minus(now.best().mean, before.best().mean) / dt;
   Matrix<3, 3> R_body_map = Matrix<3, 3>::Identity();
-  R_body_map.topLeftCorner<2, 2>() = rotation2(before.poses[0].mean.yaw + 0.5 * dt * change[2]).transpose();
+  R_body_map.topLeftCorner<2, 2>() = rotation2(before.best().mean.yaw + 0.5 * dt * change[2]).transpose();
   PlanarTwist twist;
   twist.rates = R_body_map * change;
-  twist.covariance = R_body_map * (now.poses[0].covariance + before.poses[0].covariance) *
-                     R_body_map.transpose() / (dt * dt);
+  twist.covariance =
+      R_body_map * (now.best().covariance + before.best().covariance) * R_body_map.transpose() / (dt * dt);
   return twist;
 }
 
 std::optional<Estimate> DualUwbEpochs::estimateAt(Stamp stamp) const {
   if (!last_stamp_ || !current_ || stamp < current_->stamp) return std::nullopt;
-  const Belief<Pose2>& pose = current_->poses[0];
+  const Belief<Pose2>& pose = current_->best();
   Matrix<3, 3> covariance = pose.covariance;
-  if (current_->count > 1) {  // one of several: its pose with the spread of all of them about it
-    const auto weight = [&](std::size_t k) {
-      return std::exp(-0.5 * (current_->costs[k] - current_->costs[0]));
+  if (!current_->certain()) {  // one of several: its pose with the spread of all of them about it
+    const auto weight = [&](const EpochPose& p) {
+      return std::exp(-0.5 * (p.cost - current_->poses.front().cost));
     };
-    const auto count = static_cast<std::size_t>(current_->count);
     double total = 0.0;
-    for (std::size_t k = 0; k < count; ++k) total += weight(k);
+    for (const EpochPose& p : current_->poses) total += weight(p);
     covariance.setZero();
-    for (std::size_t k = 0; k < count; ++k)
-      covariance += spreadAbout(pose.mean, current_->poses[k], weight(k) / total);
+    for (const EpochPose& p : current_->poses)
+      covariance += spreadAbout(pose.mean, p.pose, weight(p) / total);
   }
   covariance += unknownMotion(config_, seconds(stamp - current_->stamp));
   Estimate estimate = planarEstimate(stamp, pose.mean, covariance, config_.body_height);
@@ -266,15 +236,14 @@ std::optional<Estimate> DualUwbEpochs::estimateAt(Stamp stamp) const {
 }
 
 Diagnostics DualUwbEpochs::diagnostics() const {
-  Diagnostics values{{"hypotheses", current_ ? static_cast<double>(current_->count) : 0.0},
+  Diagnostics values{{"hypotheses", current_ ? static_cast<double>(current_->poses.size()) : 0.0},
                      {"epochs", static_cast<double>(epochs_)},
                      {"epochs_unsolved", static_cast<double>(unsolved_)},
                      {"heading_turned_round", static_cast<double>(turned_round_)}};
-  for (int k = 1; current_ && k < current_->count; ++k) {  // mirror images are told, not averaged
-    const std::string name = "alternative_" + std::to_string(k) + "_";
-    const Belief<Pose2>& other = current_->poses[static_cast<std::size_t>(k)];
-    values.push_back({name + "x_m", other.mean.x, std::sqrt(other.covariance(0, 0))});
-    values.push_back({name + "y_m", other.mean.y, std::sqrt(other.covariance(1, 1))});
+  if (!current_) return values;
+  for (std::size_t k = 1; k < current_->poses.size(); ++k) {
+    for (const auto& value : alternative(static_cast<int>(k), current_->poses[k].pose))
+      values.push_back(value);
   }
   return values;
 }

@@ -9,9 +9,7 @@
 namespace pos::estimation {
 namespace {
 
-constexpr double kOutlierShare = 0.05;
-constexpr double kOutlierDensity = 1.0 / 50.0;  // 1/m, a bad range may be anywhere over tens of metres
-constexpr double kCoursePeriod = 0.1;           // s between two constraints of a free vehicle
+constexpr double kCoursePeriod = 0.1;  // s between two constraints of a free vehicle
 
 double square(double value) {
   return value * value;
@@ -34,9 +32,12 @@ IngestReport reportOf(const Told& told) {
 }
 
 double logLikelihood(const Told& told) {
-  const double S = told.S(0, 0);
-  const double good = (1.0 - kOutlierShare) * std::exp(-0.5 * told.nis) / std::sqrt(2.0 * kPi * S);
-  return std::log(good + kOutlierShare * kOutlierDensity);
+  if (told.verdict == Verdict::Degenerate) return likelihood::logOfOutlier();  // S is no variance
+  return logSum(likelihood::logOfGood(told.nis, told.S(0, 0)), likelihood::logOfOutlier());
+}
+
+Belief<Pose2> poseOf(const Belief<DualUwbState>& state) {
+  return {state.mean.pose(), state.covariance.topLeftCorner<3, 3>()};
 }
 
 }  // namespace
@@ -46,20 +47,16 @@ DualUwbFilter::DualUwbFilter(const DualUwbConfig& config, std::shared_ptr<const 
       roadway_(config, map),
       links_(config, *map),
       layout_(config, links_.anchors()),
-      motion_{&layout_, &config_},
       gate_{chiSquareQuantile(config.gate.confidence, 1.0)},
       residual_test_(config.fit_significance),
       watch_(config.gate, links_.anchors()) {}
 
 void DualUwbFilter::reset(Stamp stamp, const Belief<Pose2>& prior) {
+  forget();
+  gyro_stamp_.reset();
   bank_ = DualUwbBank({{startBelief(prior), 0.0}});
-  early_.clear();
-  watch_.forget();
   state_stamp_ = last_stamp_ = stamp;
   still_until_ = stamp + durationFromSeconds(config_.still_at_start);
-  gyro_stamp_.reset();
-  course_held_.reset();
-  backwards_since_.reset();
 }
 
 IngestReport DualUwbFilter::ingest(const Measurement& measurement) {
@@ -131,28 +128,21 @@ GyroInput DualUwbFilter::gyroAt(Stamp stamp) const {
   return {gyro_rate_, std::clamp(seconds(stamp - *gyro_stamp_), 0.0, any)};
 }
 
-Belief<DualUwbState> DualUwbFilter::carried(Belief<DualUwbState> belief, Stamp stamp) const {
+DualUwbStep DualUwbFilter::stepTo(const DualUwbState& x, Stamp stamp) const {
+  const DualUwbMotion motion{&layout_, &config_};
   const double dt = seconds(stamp - *state_stamp_);
-  if (dt <= 0.0) return belief;
   const bool standing = still_until_ && stamp <= *still_until_;
-  const double walk = square(config_.link_bias.walk_per_sqrt_s) * dt;
-  predict(belief,
-          standing ? motion_.standing(belief.mean) : motion_.step(belief.mean, gyroAt(*state_stamp_), dt),
-          walk);
+  return standing ? motion.standing(x, dt) : motion.step(x, gyroAt(*state_stamp_), dt);
+}
+
+Belief<DualUwbState> DualUwbFilter::carried(Belief<DualUwbState> belief, Stamp stamp) const {
+  if (stamp > *state_stamp_) predict(belief, stepTo(belief.mean, stamp));
   return belief;
 }
 
 void DualUwbFilter::carryTo(Stamp stamp) {
-  const double dt = seconds(stamp - *state_stamp_);
-  if (dt <= 0.0) return;
-  const bool standing = still_until_ && stamp <= *still_until_;
-  const double walk = square(config_.link_bias.walk_per_sqrt_s) * dt;
-  const GyroInput gyro = gyroAt(*state_stamp_);
-  for (DualUwbHypothesis& h : bank_.hypotheses()) {
-    const DualUwbStep step =
-        standing ? motion_.standing(h.belief.mean) : motion_.step(h.belief.mean, gyro, dt);
-    predict(h.belief, step, walk);
-  }
+  if (stamp <= *state_stamp_) return;
+  for (DualUwbHypothesis& h : bank_.hypotheses()) predict(h.belief, stepTo(h.belief.mean, stamp));
   state_stamp_ = stamp;
   holdCourse(stamp);
 }
@@ -233,16 +223,13 @@ void DualUwbFilter::settle(Stamp stamp) {
 std::optional<Estimate> DualUwbFilter::estimateAt(Stamp stamp) const {
   if (bank_.empty() || stamp < *state_stamp_) return std::nullopt;
   const Belief<DualUwbState> state = carried(bank_.best().belief, stamp);
-  Matrix<3, 3> covariance = state.covariance.topLeftCorner<3, 3>();
+  Matrix<3, 3> covariance = poseOf(state).covariance;
   if (bank_.size() > 1) {  // the best one's pose with the spread of all of them about it
-    double total = 0.0;
-    for (const DualUwbHypothesis& h : bank_.hypotheses()) total += std::exp(h.log_weight);
     covariance.setZero();
-    for (const DualUwbHypothesis& h : bank_.hypotheses()) {
-      const Belief<DualUwbState> other = carried(h.belief, stamp);
-      covariance +=
-          spreadAbout(state.mean.pose(), {other.mean.pose(), other.covariance.topLeftCorner<3, 3>()},
-                      std::exp(h.log_weight) / total);
+    const std::vector<double> weights = bank_.weights();
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const Belief<DualUwbState> other = carried(bank_.hypotheses()[i].belief, stamp);
+      covariance += spreadAbout(state.mean.pose(), poseOf(other), weights[i]);
     }
   }
   Estimate estimate = planarEstimate(stamp, state.mean.pose(), covariance, config_.body_height);
@@ -257,12 +244,11 @@ Diagnostics DualUwbFilter::diagnostics() const {
                      {"velocity_doubts", static_cast<double>(doubts_)},
                      {"direction_alarms", static_cast<double>(alarms_)}};
   if (bank_.empty()) return values;
-  for (std::size_t i = 0; i < bank_.size(); ++i) {  // mirror images are told, not averaged
+  int number = 0;
+  for (std::size_t i = 0; i < bank_.size(); ++i) {
     if (i == bank_.bestIndex()) continue;
-    const std::string name = "alternative_" + std::to_string(values.size()) + "_";
-    const Belief<DualUwbState>& other = bank_.hypotheses()[i].belief;
-    values.push_back({name + "x_m", other.mean.values[0], std::sqrt(other.covariance(0, 0))});
-    values.push_back({name + "y_m", other.mean.values[1], std::sqrt(other.covariance(1, 1))});
+    for (const auto& value : alternative(++number, poseOf(bank_.hypotheses()[i].belief)))
+      values.push_back(value);
   }
   const Belief<DualUwbState>& belief = bank_.best().belief;
   const auto add = [&](const std::string& name, int row) {

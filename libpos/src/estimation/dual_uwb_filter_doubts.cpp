@@ -25,7 +25,7 @@ bool DualUwbFilter::allDisagree(Stamp stamp, Verdict verdict) {
     rejected_in_row_ = 0;
     return false;
   }
-  if (++rejected_in_row_ < std::max(kFewestRejections, watch_.heardLately(stamp))) return false;
+  if (++rejected_in_row_ < std::max(kFewestRejections, watch_.heardLately(stamp).anchors)) return false;
   rejected_in_row_ = 0;
   return true;
 }
@@ -69,8 +69,8 @@ std::string_view DualUwbFilter::alarm(Stamp stamp) {
 /// Wheels that turn one way while the tags go the other pull the filter apart: it fits half of the anchors at
 /// most.
 std::string_view DualUwbFilter::wheelsAtOdds(Stamp stamp, double speed) {
-  const int heard = watch_.heardLately(stamp);
-  if (heard < 2 || 2 * watch_.disagreeing(stamp) < heard || std::abs(speed) < kCrawl) {
+  const AnchorWatch::Heard heard = watch_.heardLately(stamp);
+  if (heard.anchors < 2 || 2 * heard.disagreeing < heard.anchors || std::abs(speed) < kCrawl) {
     at_odds_since_.reset();
     return {};
   }

@@ -37,16 +37,23 @@ Belief<DualUwbState> DualUwbFilter::startBelief(const Belief<Pose2>& pose) const
   return belief;
 }
 
-void DualUwbFilter::restart() {
+/// All that hangs on the pose: back to where no pose is known.
+void DualUwbFilter::forget() {
   bank_ = {};
   early_.clear();
   attempts_ = 0;
   watch_.forget();
   still_until_.reset();
+  course_held_.reset();
   backwards_since_.reset();
+  alarmed_ = false;
   at_odds_since_.reset();
   applied_stamp_.reset();
   rejected_in_row_ = 0;
+}
+
+void DualUwbFilter::restart() {
+  forget();
   ++restarts_;
 }
 
@@ -56,10 +63,7 @@ void DualUwbFilter::begin(Stamp stamp) {
   if (state_stamp_) return;
   state_stamp_ = stamp;
   if (config_.start.mode != StartMode::Known) return;
-  Belief<Pose2> prior{config_.start.pose, Matrix<3, 3>::Zero()};
-  prior.covariance.diagonal() << square(config_.start.position_sigma), square(config_.start.position_sigma),
-      square(config_.start.yaw_sigma);
-  bank_ = DualUwbBank({{startBelief(prior), 0.0}});
+  bank_ = DualUwbBank({{startBelief(knownStart(config_.start)), 0.0}});
   still_until_ = stamp + durationFromSeconds(config_.still_at_start);
 }
 
@@ -96,9 +100,7 @@ void DualUwbFilter::start(Stamp stamp, const uwb::RigidFixes& fixes) {
   bank_ = DualUwbBank(std::move(hypotheses));
   early_.clear();
   attempts_ = 0;
-  watch_.forget();
   state_stamp_ = stamp;
-  course_held_.reset();
   if (!still_until_ && restarts_ == 0) still_until_ = stamp + durationFromSeconds(config_.still_at_start);
   settle(stamp);
 }

@@ -26,6 +26,12 @@ Rate rateOf(const State& x, const DualUwbLayout& layout, GyroInput gyro) {
   return layout.gyro() ? Rate{gyro.rate - state, -1.0} : Rate{state, 1.0};
 }
 
+LinkStep linkStep(const LinkBiasState& bias, double dt) {
+  if (bias.time <= 0.0) return {1.0, bias.value, square(bias.walk_per_sqrt_s) * dt};
+  const double keep = std::exp(-dt / bias.time);
+  return {keep, bias.value, square(bias.sigma) * (1.0 - keep * keep)};
+}
+
 /// A measurement that only the given rows see.
 DualUwbRow emptyRow(const State& x, double nu) {
   DualUwbRow row;
@@ -63,13 +69,14 @@ DualUwbLayout::DualUwbLayout(const DualUwbConfig& config, int anchors)
       .suggestion = "calibrate the ranges instead: pos calibrate ranges"});
 }
 
-DualUwbStep DualUwbMotion::standing(const DualUwbState& x) const {
+DualUwbStep DualUwbMotion::standing(const DualUwbState& x, double dt) const {
   const int n = layout->core();
-  return {x.values.head(n), DualUwbStep::Core::Identity(n, n), DualUwbStep::Core::Zero(n, n)};
+  return {x.values.head(n), DualUwbStep::Core::Identity(n, n), DualUwbStep::Core::Zero(n, n),
+          linkStep(config->link_bias, dt)};
 }
 
 DualUwbStep DualUwbMotion::step(const DualUwbState& x, GyroInput gyro, double dt) const {
-  DualUwbStep step = standing(x);
+  DualUwbStep step = standing(x, dt);
   const int rate_row = layout->rateRow();
   const Rate rate = rateOf(x, *layout, gyro);
   const double q_a = square(config->acceleration_density);
@@ -122,7 +129,7 @@ DualUwbStep DualUwbMotion::step(const DualUwbState& x, GyroInput gyro, double dt
   return step;
 }
 
-void predict(Belief<DualUwbState>& belief, const DualUwbStep& step, double link_walk_variance) {
+void predict(Belief<DualUwbState>& belief, const DualUwbStep& step) {
   const auto core = step.next.size();
   auto& P = belief.covariance;
   const auto links = P.rows() - core;
@@ -133,9 +140,13 @@ void predict(Belief<DualUwbState>& belief, const DualUwbStep& step, double link_
   auto pose = P.topLeftCorner(core, core);
   filters::symmetrise(pose);
   if (links == 0) return;
-  P.topRightCorner(core, links) = (step.F * P.topRightCorner(core, links)).eval();
+  const double keep = step.links.keep;
+  auto biases = belief.mean.values.tail(links);
+  biases.array() = step.links.mean + keep * (biases.array() - step.links.mean);
+  P.topRightCorner(core, links) = (keep * step.F * P.topRightCorner(core, links)).eval();
   P.bottomLeftCorner(links, core) = P.topRightCorner(core, links).transpose();
-  P.diagonal().tail(links).array() += link_walk_variance;
+  if (keep != 1.0) P.bottomRightCorner(links, links) *= keep * keep;
+  P.diagonal().tail(links).array() += step.links.variance;
 }
 
 DualUwbRow rangeInnovation(const DualUwbState& x, const DualUwbLayout& layout, const uwb::BodyRange& range,

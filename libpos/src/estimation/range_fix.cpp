@@ -9,7 +9,7 @@
 namespace pos::estimation {
 namespace {
 
-constexpr double kOutlierShare = 0.05;
+using likelihood::kOutlierShare;
 constexpr double kOutlierReach = 10.0;  // sigmas of the fix over which a bad one is spread evenly
 
 /// log of the likelihood of nu under N(0, S), and of a bad fix spread over `kOutlierReach` sigmas of R,
@@ -20,8 +20,7 @@ double logLikelihood(const filters::Correction<M>& c, const Matrix<M, M>& R) {
                       0.5 * M * std::log(2.0 * kPi);
   const double bad =
       std::log(kOutlierShare) - 0.5 * std::log(R.determinant()) - M * std::log(2.0 * kOutlierReach);
-  const double top = std::max(good, bad);
-  return top + std::log1p(std::exp(std::min(good, bad) - top));
+  return logSum(good, bad);
 }
 
 template <int M>
@@ -49,11 +48,11 @@ FixCorrection correctOne(RangeHypothesis& h, const RangeLayout& layout, const Fi
 
 FixCorrection RangeBank::correct(const RangeLayout& layout, const FixReading& fix, double confidence) {
   FixCorrection told;
-  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
-    RangeHypothesis& h = hypotheses_[i];
+  for (std::size_t i = 0; i < size(); ++i) {
+    RangeHypothesis& h = hypotheses()[i];
     const FixCorrection done =
         fix.yaw ? correctOne<3>(h, layout, fix, confidence) : correctOne<2>(h, layout, fix, confidence);
-    if (i == best_) told = done;
+    if (i == bestIndex()) told = done;
   }
   settle();
   return told;

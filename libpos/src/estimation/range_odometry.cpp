@@ -86,9 +86,7 @@ void RangeOdometry::begin(Stamp stamp) {
   last_stamp_ = stamp;
   if (state_stamp_) return;
   state_stamp_ = stamp;
-  Belief<Pose2> prior{config_.start.pose, Matrix<3, 3>::Zero()};
-  prior.covariance.diagonal() << square(config_.start.position_sigma), square(config_.start.position_sigma),
-      square(config_.start.yaw_sigma);
+  const Belief<Pose2> prior = knownStart(config_.start);
   switch (config_.start.mode) {
     case StartMode::Known:
       bank_ = RangeBank({{startBelief(config_, layout_, prior), 0.0}});

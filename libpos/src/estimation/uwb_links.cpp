@@ -32,6 +32,14 @@ bool free(const map::OccupancyGrid& grid, const Eigen::Vector2d& p_map) {
   return grid.at(column, row) < kRock;
 }
 
+/// The tag at its electrical place.
+TagMount shifted(TagMount tag, const std::vector<TagShift>& shifts) {
+  for (const TagShift& shift : shifts) {
+    if (shift.id == tag.id) tag.p_body += Eigen::Vector3d(shift.x, shift.y, 0.0);
+  }
+  return tag;
+}
+
 }  // namespace
 
 bool RoadwayTest::inside(const Eigen::Vector2d& p_map) const {
@@ -51,11 +59,7 @@ UwbLinks::UwbLinks(const DualUwbConfig& config, const map::TunnelMap& map)
     anchors_.push_back({anchor.id, anchor.p_map, std::hypot(config.range_sigma, anchor.survey_sigma), {}});
     map_bias_.push_back(anchor.range_bias + config.range_offset);
   }
-  for (TagMount& tag : tags_) {
-    for (const TagShift& shift : config.tag_shifts) {
-      if (shift.id == tag.id) tag.p_body += Eigen::Vector3d(shift.x, shift.y, 0.0);
-    }
-  }
+  for (TagMount& tag : tags_) tag = shifted(tag, config.tag_shifts);
   for (const LinkBias& link : config.range_biases) {
     if (index_.contains(link.anchor)) continue;
     throw ConfigError(Complaint{.what = "a range bias names an anchor that the map does not have",
@@ -77,11 +81,7 @@ int UwbLinks::tagIndex(const BeaconRange& range) {
     if (tags_[i].id == range.tag) return static_cast<int>(i);
   }
   if (!config_.tags.empty() || !range.tag_body) return -1;
-  TagMount mount{range.tag, *range.tag_body};
-  for (const TagShift& shift : config_.tag_shifts) {
-    if (shift.id == mount.id) mount.p_body += Eigen::Vector3d(shift.x, shift.y, 0.0);
-  }
-  tags_.push_back(mount);
+  tags_.push_back(shifted({range.tag, *range.tag_body}, config_.tag_shifts));
   return static_cast<int>(tags_.size()) - 1;
 }
 

@@ -4,6 +4,7 @@
 
 #include "pos/eval/bootstrap.hpp"
 #include "pos/eval/campaign.hpp"
+#include "pos/eval/statistics.hpp"
 
 namespace pos::eval {
 namespace {
@@ -24,12 +25,6 @@ bool moreIsBetter(const std::string& metric) {
 
 double meanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 /// Rows of both columns where both have a value.
@@ -83,10 +78,10 @@ std::optional<MetricOverRuns> overRuns(const std::string& metric, const std::vec
   double squares = 0.0;
   for (const double v : known) squares += (v - figures.mean) * (v - figures.mean);
   if (known.size() > 1) figures.std = std::sqrt(squares / static_cast<double>(known.size() - 1));
-  figures.median = medianOf(known);
-  const auto [low, high] = std::minmax_element(known.begin(), known.end());
-  figures.min = *low;
-  figures.max = *high;
+  std::sort(known.begin(), known.end());
+  figures.median = sortedQuantile(known, 0.5);
+  figures.min = known.front();
+  figures.max = known.back();
   return figures;
 }
 

@@ -230,6 +230,10 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
   return all;
 }
 
+bool isOfASensor(const std::string& text) {
+  return text.find("nis_") != std::string::npos || text.find("sensors.") != std::string::npos;
+}
+
 Requirement parseRequirement(const std::string& text, const std::vector<NamedMetrics>& estimators) {
   const std::size_t at = text.find_first_of("<>");
   if (at == std::string::npos) throwUsage(text, "no comparison", text, "p95_xy<1.0");

@@ -5,6 +5,7 @@ namespace {
 
 using estimation::DualUwbConfig;
 using estimation::LinkBias;
+using estimation::LinkBiasState;
 using estimation::SightConfig;
 using estimation::TagShift;
 
@@ -21,6 +22,17 @@ OptionTable<SightConfig> sightOptions() {
       .number("agreement_fraction", &SightConfig::agreement_fraction, between(0, 1),
               "Agreement means that at least this share of the anchors heard pass the gate.")
       .check([](const auto& config) { return validated(config); });
+}
+
+OptionTable<LinkBiasState> linkBiasStateOptions() {
+  return OptionTable<LinkBiasState>("link_bias", "What every link reads too long beside what is taken off.")
+      .number("value_m", &LinkBiasState::value, between(-100, 100), "Value at the start.")
+      .number("sigma_m", &LinkBiasState::sigma, between(0, 100),
+              "How sure the value is at the start; 0 means that there are no such states.")
+      .number("walk_m_per_sqrt_s", &LinkBiasState::walk_per_sqrt_s, between(0, 100),
+              "How fast it wanders (random walk).")
+      .number("time_s", &LinkBiasState::time, between(0, 86400),
+              "It forgets itself over this time and keeps its sigma (instead of wandering); 0 means never.");
 }
 
 OptionTable<Eigen::Vector2d> cornerOptions() {
@@ -81,10 +93,12 @@ OptionTable<DualUwbConfig> dualUwbOptions() {
               "Height of the body frame in the map.")
       .number("range_sigma_m", &Config::range_sigma, between(0.0001, 100), "Standard deviation of a range.")
       .number("range_offset_m", &Config::range_offset, between(-100, 100), "Subtracted from every range.")
-      .table("link_bias", &Config::link_bias, calibrationOptions("link_bias", "m", between(-100, 100), 100),
-             "What a link reads too long, one state for each tag and anchor (filters).")
+      .table(
+          "link_bias", &Config::link_bias, linkBiasStateOptions(),
+          "What a link reads too long beside what is taken off, one state for each tag and anchor (filters).")
       .text("range_bias_table", &Config::range_bias_table,
-            "File written by pos calibrate ranges; it stands in the place of range_offset_m, range_biases and tag_shifts.")
+            "File written by pos calibrate ranges; it stands in the place of range_offset_m, range_biases "
+            "and tag_shifts.")
       .list("range_biases", &Config::range_biases, linkBiasOptions(), "What single links read too long.")
       .list("tag_shifts", &Config::tag_shifts, tagShiftOptions(),
             "How far the tags' electrical places lie from their mounts.")

@@ -5,10 +5,13 @@
 /// x = unknowns    e_i = range read - predicted    J_i = d predicted / d x    w_i = weight (1 / sigma^2)
 
 #include <Eigen/Cholesky>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
+#include "pos/core/error.hpp"
 #include "pos/core/manifold.hpp"
 #include "pos/uwb/residual_test.hpp"
 
@@ -21,6 +24,24 @@ struct Linearised {
 };
 
 using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxRanges, 1>;
+
+/// 1 / sigma^2 of every range.
+template <class Range>
+Weights weightsOf(std::span<const Range> ranges) {
+  ensure(ranges.size() <= static_cast<std::size_t>(kMaxRanges), "too many ranges in one fit");
+  Weights weights(static_cast<Eigen::Index>(ranges.size()));
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    weights[static_cast<Eigen::Index>(i)] = 1.0 / (ranges[i].sigma * ranges[i].sigma);
+  }
+  return weights;
+}
+
+/// What speaks against a fit of so many ranges: its residuals, and every range that it has to leave out.
+template <class Fix>
+double against(const Fix& fix, std::size_t ranges) {
+  const auto left_out = static_cast<double>(ranges) - std::popcount(fix.used);
+  return fix.chi_square + kRuledOut * left_out + (fix.consistent ? 0.0 : kRuledOut * kMaxRanges);
+}
 
 template <int N>
 struct Normal {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kRounds = 4;
 constexpr double kLeastSigma = 0.005;  // m, of a range; keeps perfect data from being split into outliers
-constexpr int kFewestPairs = 20;
+constexpr double kLater = 1.0;         // s, after which it is asked what is left of an error
+constexpr double kForgotten = 0.05;    // of it: less cannot be told from nothing
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<long>(values.size() / 2);
@@ -149,6 +150,60 @@ void fillStatistics(const std::vector<Row>& rows, RangeCalibration& result) {
   result.residual_sigma = std::sqrt(total / std::max(result.samples, 1));
 }
 
+/// Mean product of two residuals of one link, and how far they lie apart in time.
+struct Lagged {
+  double product = 0.0;  ///< m^2
+  double lag = 0.0;      ///< s
+};
+
+/// Over all pairs of residuals of one link, the second the next one `lag` or more after the first.
+Lagged lagged(std::span<const CalibrationSample> samples,
+              const std::vector<std::vector<std::size_t>>& by_link, const std::vector<double>& residuals,
+              double lag) {
+  Lagged sum;
+  int count = 0;
+  for (const std::vector<std::size_t>& link : by_link) {
+    std::size_t later = 0;
+    for (std::size_t i = 0; i < link.size(); ++i) {
+      const auto apart = [&] { return seconds(samples[link[later]].stamp - samples[link[i]].stamp); };
+      for (later = std::max(later, i + 1); later < link.size() && apart() < lag; ++later) continue;
+      if (later == link.size()) break;
+      if (apart() > 2.0 * std::max(lag, 0.5)) continue;  // a hole in the record
+      sum.product += residuals[link[i]] * residuals[link[later]];
+      sum.lag += apart();
+      ++count;
+    }
+  }
+  if (count == 0) return {};
+  return {sum.product / count, sum.lag / count};
+}
+
+/// Two neighbouring readings share the lasting part of their errors only, two a second apart what is left of
+/// it.
+RangeErrors errorsOf(std::span<const CalibrationSample> samples, const std::vector<Row>& rows,
+                     const RangeCalibration& found) {
+  std::vector<std::vector<std::size_t>> by_link(found.links.size());
+  std::vector<double> residuals(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    residuals[i] = residual(rows[i], found.links, found.tags);
+    if (rows[i].kept) by_link[rows[i].link].push_back(i);
+  }
+  const double whole = found.residual_sigma * found.residual_sigma;
+  const Lagged next = lagged(samples, by_link, residuals, 0.0);
+  const Lagged later = lagged(samples, by_link, residuals, kLater);
+  if (next.product <= 0.0) return {.reading_sigma = found.residual_sigma};
+  RangeErrors errors;
+  double lasting = next.product;
+  const double left = std::max(later.product / next.product, kForgotten);
+  if (left < 1.0 && later.lag > next.lag) {
+    errors.lasting_time = (later.lag - next.lag) / -std::log(left);
+    lasting = std::min(whole, lasting * std::exp(next.lag / errors.lasting_time));  // before the next reading
+  }
+  errors.lasting_sigma = std::sqrt(lasting);
+  errors.reading_sigma = std::sqrt(std::max(whole - lasting, 0.0));
+  return errors;
+}
+
 }  // namespace
 
 RangeCalibration calibratedRanges(std::span<const CalibrationSample> samples,
@@ -177,38 +232,7 @@ RangeCalibration calibratedRanges(std::span<const CalibrationSample> samples,
     if (options.shift_sigma > 0.0) result.tags = std::move(tags);
   }
   fillStatistics(rows, result);
-  return result;
-}
-
-MotionCalibration calibratedMotion(std::span<const TimedPose> poses, double interval, double speed_min) {
-  // sideways = forward * t + rate * centre, for t = tan(offset) and the centre
-  Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
-  double squares = 0.0;
-  MotionCalibration result;
-  std::size_t behind = 0;
-  for (std::size_t ahead = 0; ahead < poses.size(); ++ahead) {
-    while (seconds(poses[ahead].stamp - poses[behind].stamp) > interval) ++behind;
-    const double dt = seconds(poses[ahead].stamp - poses[behind].stamp);
-    if (dt < 0.5 * interval) continue;
-    const double turn = wrapAngle(poses[ahead].pose.yaw - poses[behind].pose.yaw);
-    const double middle = poses[behind].pose.yaw + 0.5 * turn;
-    const Eigen::Vector2d velocity = rotation2(middle).transpose() *
-                                     (poses[ahead].pose.translation() - poses[behind].pose.translation()) /
-                                     dt;
-    if (std::abs(velocity.x()) < speed_min) continue;
-    const Eigen::Vector2d row(velocity.x(), turn / dt);
-    A += row * row.transpose();
-    b += velocity.y() * row;
-    squares += velocity.y() * velocity.y();
-    ++result.samples;
-  }
-  if (result.samples < kFewestPairs) return {};
-  A.diagonal().array() += 1e-9;  // a drive that never turns leaves the centre where the body frame is
-  const Eigen::Vector2d x = A.ldlt().solve(b);
-  result.course_offset = std::atan(x[0]);
-  result.centre_x = x[1];
-  result.residual_sigma = std::sqrt(std::max(squares - b.dot(x), 0.0) / result.samples);
+  result.errors = errorsOf(samples, rows, result);
   return result;
 }
 

@@ -6,7 +6,6 @@
 
 #include "gauss_newton.hpp"
 #include "linear_start.hpp"
-#include "pos/core/error.hpp"
 
 namespace pos::uwb {
 namespace {
@@ -16,7 +15,6 @@ using detail::Weights;
 constexpr int kHeadings = 8;
 constexpr std::size_t kFewestRanges = 4;
 constexpr double kSamePlace = 1e-3;  // m and rad
-constexpr double kAmbiguous = 13.8;  // difference of chi^2 from which a pose is ruled out (1 in 1000)
 
 struct BodyModel {
   std::span<const BodyRange> ranges;
@@ -39,21 +37,6 @@ struct BodyModel {
 
   Vector<3> start(const Vector<3>& q, const Weights& weights) const;
 };
-
-template <class Range>
-Weights weightsOf(std::span<const Range> ranges) {
-  ensure(ranges.size() <= static_cast<std::size_t>(kMaxRanges), "too many ranges in one fit");
-  Weights weights(static_cast<Eigen::Index>(ranges.size()));
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    weights[static_cast<Eigen::Index>(i)] = 1.0 / (ranges[i].sigma * ranges[i].sigma);
-  }
-  return weights;
-}
-
-TagRange tagRange(const BodyRange& range, double body_height) {
-  return {range.anchor_map.head<2>(), range.anchor_map.z() - body_height - range.tag_body.z(), range.range,
-          range.sigma};
-}
 
 using MovedRanges = std::array<TagRange, kMaxRanges>;
 
@@ -129,7 +112,7 @@ bool same(const Vector<3>& a, const Vector<3>& b) {
 class Search {
  public:
   Search(std::span<const BodyRange> ranges, double body_height, const ResidualTest& test)
-      : model_{ranges, body_height}, weights_(weightsOf(ranges)), test_(test) {}
+      : model_{ranges, body_height}, weights_(detail::weightsOf(ranges)), test_(test) {}
 
   /// With the search for bad ranges.
   void add(const Vector<3>& start) { keep(detail::robustFit<3>(model_, start, weights_, test_)); }
@@ -152,7 +135,7 @@ class Search {
     found_.verdict = FixVerdict::Degenerate;
     if (found_.count == 0) return found_;
     const double best = against(found_.fixes[0]);
-    while (found_.count > 1 && against(found_.fixes[last()]) > best + kAmbiguous) --found_.count;
+    while (found_.count > 1 && against(found_.fixes[last()]) > best + kRuledOut) --found_.count;
     found_.verdict = found_.count == 1 ? FixVerdict::Solved : FixVerdict::Ambiguous;
     return found_;
   }
@@ -177,10 +160,8 @@ class Search {
     sortIn(fix);
   }
 
-  /// What speaks against a pose: its residuals, and every range that it has to leave out.
   double against(const RigidFix& fix) const {
-    const auto left_out = static_cast<double>(weights_.size()) - std::popcount(fix.used);
-    return fix.chi_square + kAmbiguous * left_out + (fix.consistent ? 0.0 : kAmbiguous * kMaxRanges);
+    return detail::against(fix, static_cast<std::size_t>(weights_.size()));
   }
 
   /// Sorted by what speaks against them; the worst falls off the end.
@@ -225,8 +206,8 @@ struct TagStarts {
 /// Both tags by themselves, both sides of a line of anchors each.
 TagStarts startsFromTags(const Groups& groups) {
   const auto& [a, b] = groups.groups;
-  const detail::Starts first = detail::startingPlaces(a.all(), weightsOf(a.all()));
-  const detail::Starts second = detail::startingPlaces(b.all(), weightsOf(b.all()));
+  const detail::Starts first = detail::startingPlaces(a.all(), detail::weightsOf(a.all()));
+  const detail::Starts second = detail::startingPlaces(b.all(), detail::weightsOf(b.all()));
   TagStarts starts;
   for (const Eigen::Vector2d& p_a : first.all()) {
     for (const Eigen::Vector2d& p_b : second.all())
@@ -239,12 +220,18 @@ void startFromHeadings(Search& search, std::span<const BodyRange> ranges, double
   for (int k = 0; k < kHeadings; ++k) {
     const double yaw = 2.0 * kPi * k / kHeadings;
     const MovedRanges moved = movedRanges(ranges, body_height, yaw);
-    const detail::Starts starts = detail::startingPlaces({moved.data(), ranges.size()}, weightsOf(ranges));
+    const detail::Starts starts =
+        detail::startingPlaces({moved.data(), ranges.size()}, detail::weightsOf(ranges));
     for (const Eigen::Vector2d& p : starts.all()) search.add({p.x(), p.y(), yaw});
   }
 }
 
 }  // namespace
+
+TagRange tagRange(const BodyRange& range, double body_height) {
+  return {range.anchor_map.head<2>(), range.anchor_map.z() - body_height - range.tag_body.z(), range.range,
+          range.sigma};
+}
 
 RangeRow predictedRange(const Pose2& pose, double body_height, const Eigen::Vector3d& tag_body,
                         const Eigen::Vector3d& anchor_map) {

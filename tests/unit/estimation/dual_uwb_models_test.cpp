@@ -126,24 +126,47 @@ TEST(DualUwbModels, ProcessNoiseHasNoNegativeDirection) {
 }
 
 TEST(DualUwbModels, SparsePredictionIsTheDenseOne) {
-  const DualUwbConfig config = configOf(kKinds.back());
+  DualUwbConfig config = configOf(kKinds.back());
+  for (const double time : {0.0, 0.4}) {
+    config.link_bias = {0.02, 0.05, time > 0.0 ? 0.0 : 0.1, time};
+    const DualUwbLayout layout(config, kAnchors);
+    const int n = layout.size();
+    const DualUwbMotion motion{&layout, &config};
+    Belief<DualUwbState> belief;
+    belief.mean = stateAt(layout, 0.4);
+    const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {
+      return std::sin(1.0 + 2.3 * static_cast<double>(i) + 0.7 * static_cast<double>(j * j));
+    });
+    belief.covariance = root * root.transpose();
+    const DualUwbStep step = motion.step(belief.mean, {}, 0.2);
+    Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
+    F.topLeftCorner(layout.core(), layout.core()) = step.F;
+    F.diagonal().tail(layout.links()).setConstant(time > 0.0 ? std::exp(-0.2 / time) : 1.0);
+    Eigen::MatrixXd dense = F * belief.covariance * F.transpose();
+    dense.topLeftCorner(layout.core(), layout.core()) += step.Qd;
+    const double forgotten = 0.05 * 0.05 * (1.0 - std::exp(-0.4 / 0.4));
+    dense.diagonal().tail(layout.links()).array() += time > 0.0 ? forgotten : 0.1 * 0.1 * 0.2;
+    const double bias = belief.mean.values[layout.core()];
+    predict(belief, step);
+    EXPECT_LE((belief.covariance - dense).norm(), 1e-12 * dense.norm());
+    EXPECT_NEAR(belief.mean.values[layout.core()], 0.02 + F(layout.core(), layout.core()) * (bias - 0.02),
+                1e-15);
+  }
+}
+
+TEST(DualUwbModels, ABiasThatForgetsItselfKeepsItsSigmaHoweverTheTimeIsCut) {
+  DualUwbConfig config = configOf(kKinds.back());
+  config.link_bias = {0.02, 0.05, 0.0, 0.7};
   const DualUwbLayout layout(config, kAnchors);
-  const int n = layout.size();
   const DualUwbMotion motion{&layout, &config};
-  Belief<DualUwbState> belief;
-  belief.mean = stateAt(layout, 0.4);
-  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) {
-    return std::sin(1.0 + 2.3 * static_cast<double>(i) + 0.7 * static_cast<double>(j * j));
-  });
-  belief.covariance = root * root.transpose();
-  const DualUwbStep step = motion.step(belief.mean, {}, 0.2);
-  Eigen::MatrixXd F = Eigen::MatrixXd::Identity(n, n);
-  F.topLeftCorner(layout.core(), layout.core()) = step.F;
-  Eigen::MatrixXd dense = F * belief.covariance * F.transpose();
-  dense.topLeftCorner(layout.core(), layout.core()) += step.Qd;
-  dense.diagonal().tail(layout.links()).array() += 0.01;
-  predict(belief, step, 0.01);
-  EXPECT_LE((belief.covariance - dense).norm(), 1e-12 * dense.norm());
+  Belief<DualUwbState> belief{stateAt(layout, 0.4),
+                              TangentMatrix<DualUwbState>::Zero(layout.size(), layout.size())};
+  belief.covariance.diagonal().tail(layout.links()).setConstant(0.05 * 0.05);
+  for (int k = 0; k < 100; ++k) predict(belief, motion.standing(belief.mean, 0.3));
+  for (int i = layout.core(); i < layout.size(); ++i) {
+    EXPECT_NEAR(belief.covariance(i, i), 0.05 * 0.05, 1e-12);
+    EXPECT_NEAR(belief.mean.values[i], 0.02, 1e-12);
+  }
 }
 
 TEST(DualUwbModels, AVehicleTurnsAboutItsMotionCentre) {

@@ -5,9 +5,9 @@
 
 #include <numeric>
 
+#include "csv_import_samples.hpp"
 #include "pos/core/angle.hpp"
 #include "pos/core/error.hpp"
-#include "scratch_folder.hpp"
 
 namespace pos::io {
 namespace {
@@ -17,26 +17,6 @@ using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 
 constexpr double kTiny = 1e-12;
-
-/// One stream of `kind` in a.csv with these columns.
-std::string mappingOf(const std::string& kind, const std::string& columns, const std::string& more = {}) {
-  return "name: test\norigin_s: 0\nstreams:\n  - kind: " + kind + "\n    file: a.csv\n    columns: {" +
-         columns + "}\n" + more;
-}
-
-ImportResult imported(const std::string& mapping, const std::string& table) {
-  const ScratchFolder folder;
-  folder.write("a.csv", table);
-  return importCsv(parseImportMapping(mapping, "m.yaml"), folder.path());
-}
-
-template <class R>
-R only(const ImportResult& result) {
-  EXPECT_EQ(result.measurements.size(), 1U);
-  return std::get<R>(result.measurements.at(0).reading);
-}
-
-const std::string kStamp = "stamp: {column: t, unit: s}, ";
 
 TEST(CsvImport, OdometryIsAnArcInSi) {
   const auto result = imported(mappingOf("odometry",
@@ -192,71 +172,6 @@ TEST(CsvImport, OriginAndShiftMoveStamps) {
   EXPECT_EQ(ImportMapping{}.origin, stampFromSeconds(1.6e9));
 }
 
-const std::string kSomeStream = mappingOf("wheel_ticks", kStamp + "left: {value: 1}, right: {value: 1}");
-ImportResult importedTruth(const std::string& columns, const std::string& table) {
-  const ScratchFolder folder;
-  folder.write("a.csv", "t\n0\n");
-  folder.write("truth.csv", table);
-  return importCsv(
-      parseImportMapping(kSomeStream + "truth: {file: truth.csv, columns: {" + kStamp +
-                             "x: {column: x, unit: m}, y: {column: y, unit: m}" + columns + "}}\n",
-                         "m.yaml"),
-      folder.path());
-}
-
-TEST(CsvImport, TruthSaysWhatItDoesNotHave) {
-  const Truth flat = *importedTruth("", "t,x,y\n0,1,2\n1,3,4\n").truth;
-  EXPECT_FALSE(flat.has_z || flat.has_yaw);
-  EXPECT_EQ(flat.poses.at(1).T_map_body.translation, Eigen::Vector3d(3, 4, 0));
-  const Truth full =
-      *importedTruth(", z: {column: z, unit: cm}, yaw: {column: h, unit: deg}", "t,x,y,z,h\n0,1,2,300,-244\n")
-           .truth;
-  EXPECT_TRUE(full.has_z && full.has_yaw);
-  EXPECT_NEAR(full.poses.at(0).T_map_body.yaw(), radians(116.0), kTiny);
-  EXPECT_NEAR(full.poses.at(0).T_map_body.translation.z(), 3.0, kTiny);
-}
-
-TEST(CsvImport, TruthTakesAQuaternion) {
-  const std::string columns = ", qw: {column: w}, qx: {column: a}, qy: {column: b}, qz: {column: c}";
-  const Truth truth = *importedTruth(columns, "t,x,y,w,a,b,c\n0,1,2,0.7071,0,0,0.7071\n").truth;
-  EXPECT_NEAR(truth.poses.at(0).T_map_body.yaw(), 0.5 * kPi, 1e-9);
-  EXPECT_THAT(complaintOf<DataError>([&] { importedTruth(columns, "t,x,y,w,a,b,c\n0,1,2,0.5,0,0,0\n"); }),
-              HasSubstr("the quaternion does not have length 1"));
-}
-
-TEST(CsvImport, TruthThatDoesNotIncreaseIsRefused) {
-  EXPECT_THAT(complaintOf<DataError>([] { importedTruth("", "t,x,y\n0,1,2\n0,3,4\n"); }),
-              AllOf(HasSubstr("truth.csv:3:1"), HasSubstr("do not increase")));
-}
-
-TEST(CsvImport, AnchorsComeFromATableOrAList) {
-  const ScratchFolder folder;
-  folder.write("a.csv", "t\n0\n");
-  folder.write("anchors.csv", "n,x,y,b\n5,1,2,30\n6,3,4,0\n");
-  const auto table = importCsv(
-      parseImportMapping(
-          kSomeStream + "anchors: {file: anchors.csv, columns: {id: {column: n}, x: {column: x, unit: m}, "
-                        "y: {column: y, unit: m}, z: {value: 150, unit: cm}, range_bias: {column: b, "
-                        "unit: cm}}}\n",
-          "m.yaml"),
-      folder.path());
-  ASSERT_EQ(table.map.anchors.size(), 2U);
-  EXPECT_EQ(table.map.findAnchor(6)->p_map, Eigen::Vector3d(3, 4, 1.5));
-  EXPECT_NEAR(table.map.findAnchor(5)->range_bias, 0.3, kTiny);
-  const auto list =
-      importCsv(parseImportMapping(kSomeStream + "anchors:\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n", "m.yaml"),
-                folder.path());
-  EXPECT_EQ(list.map.findAnchor(5)->p_map, Eigen::Vector3d(1, 2, 3));
-}
-
-TEST(CsvImport, TwoAnchorsOrTagsOfOneIdAreRefused) {
-  const std::string two = ":\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n";
-  EXPECT_THAT(complaintOf<ConfigError>([&] { imported(kSomeStream + "anchors" + two, "t\n0\n"); }),
-              HasSubstr("same id"));
-  EXPECT_THAT(complaintOf<DataError>([&] { imported(kSomeStream + "tags" + two, "t\n0\n"); }),
-              HasSubstr("two tags"));
-}
-
 TEST(CsvImport, MissingColumnListsTheColumnsFound) {
   const std::string what = complaintOf<DataError>(
       [] { imported(mappingOf("ranges", kRangeColumns), "t,tag,anchors,r\n0,1,2,3\n"); });
@@ -283,63 +198,6 @@ TEST(CsvImport, IdsThatAreNoWholeNumbersAreRefused) {
                 imported(mappingOf("ranges", kRangeColumns), "t,tag,anchor,r\n0,1,99999999999,3\n");
               }),
               HasSubstr("too large for an id"));
-}
-
-std::vector<Measurement> manyRanges(std::size_t count, double range) {
-  BeaconRange reading;
-  reading.range = range;
-  return {count, Measurement{Stamp{}, "uwb", reading}};
-}
-
-TEST(CsvImport, OutliersComeWithBothSignsInTheAskedShare) {
-  const ImportOptions options{
-      .range_outlier_probability = 0.2, .range_outlier_min_m = 2.0, .range_outlier_max_m = 5.0, .seed = 3};
-  constexpr std::size_t kCount = 10000;
-  const auto [measurements, count] = withRangeOutliers(manyRanges(kCount, 10.0), options);
-  std::size_t longer = 0;
-  std::size_t shorter = 0;
-  for (const Measurement& m : measurements) {
-    const double error = std::get<BeaconRange>(m.reading).range - 10.0;
-    if (error == 0.0) continue;
-    EXPECT_GE(std::abs(error), 2.0);
-    EXPECT_LE(std::abs(error), 5.0);
-    ++(error > 0.0 ? longer : shorter);
-  }
-  EXPECT_EQ(longer + shorter, count);
-  // binomial: 4 sigma on each side
-  EXPECT_NEAR(static_cast<double>(count), 2000.0, 4.0 * 40.0);
-  EXPECT_NEAR(static_cast<double>(longer), static_cast<double>(shorter), 4.0 * 45.0);
-}
-
-TEST(CsvImport, OutliersLeaveAtLeastFiveCentimetres) {
-  const ImportOptions options{
-      .range_outlier_probability = 1.0, .range_outlier_min_m = 5.0, .range_outlier_max_m = 6.0};
-  const auto [measurements, count] = withRangeOutliers(manyRanges(100, 1.0), options);
-  for (const Measurement& m : measurements) {
-    const double range = std::get<BeaconRange>(m.reading).range;
-    EXPECT_TRUE(range == 0.05 || range >= 6.0) << range;
-  }
-  EXPECT_EQ(count, 100U);
-}
-
-TEST(CsvImport, OutliersRepeatWithTheSeedAndDifferWithAnother) {
-  const auto rangesWith = [](std::uint64_t seed) {
-    std::vector<double> ranges;
-    const ImportOptions options{.range_outlier_probability = 0.5, .seed = seed};
-    for (const Measurement& m : withRangeOutliers(manyRanges(50, 20.0), options).measurements) {
-      ranges.push_back(std::get<BeaconRange>(m.reading).range);
-    }
-    return ranges;
-  };
-  EXPECT_EQ(rangesWith(1), rangesWith(1));
-  EXPECT_NE(rangesWith(1), rangesWith(2));
-}
-
-TEST(CsvImport, OptionsOutOfRangeAreRefused) {
-  EXPECT_THAT(complaintOf<ConfigError>([] { validated(ImportOptions{.range_outlier_probability = 1.5}); }),
-              AllOf(HasSubstr("range_outlier_probability"), HasSubstr("1.5"), HasSubstr("0 .. 1")));
-  EXPECT_THROW(validated(ImportOptions{.range_outlier_probability = std::nan("")}), ConfigError);
-  EXPECT_THROW(validated(ImportOptions{.range_outlier_min_m = 5.0, .range_outlier_max_m = 4.0}), ConfigError);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ RangeBiasTable sampleTable() {
   table.source = "log.rawlog";
   table.links = {{{0, 1, 0.125}, 0.01, 0.07, 260, 3}, {{1, 1, -0.05}, 0.02, 0.06, 250, 0}};
   table.tag_shifts = {{0, 0.01, -0.02}};
-  table.motion = CalibratedMotion{0.0625, 0.0};
+  table.errors = CalibratedErrors{0.03125, 0.0625, 1.5};
+  table.motion = CalibratedMotion{0.0625, 0.0, 0.125, 0.0};
   return table;
 }
 
@@ -39,6 +40,7 @@ TEST(RangeBiasYaml, FillsTheBiasesOfTheConfiguration) {
   still.motion.reset();
   config.motion_centre_x = 0.5;
   EXPECT_EQ(withTable(config, still).motion_centre_x, 0.5) << "no motion was calibrated";
+  EXPECT_THROW((void)withTable(config, sampleTable()), ConfigError) << "the motion is given twice";
 }
 
 TEST(RangeBiasYaml, ATableBesideBiasesOfTheConfigurationIsRefused) {

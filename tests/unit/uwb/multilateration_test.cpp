@@ -228,13 +228,6 @@ TEST(Multilateration, TooLittleIsSaidSo) {
   EXPECT_EQ(multilaterated(exact(same, {3.0, 0.0}), kTest).verdict, FixVerdict::Degenerate);
 }
 
-TEST(Multilateration, APredictionPicksTheImageNextToIt) {
-  const Eigen::Vector2d p(9.0, 1.0);
-  const TagFixes fixes = multilateratedNear(exact(kWall, p), {9.4, 0.3}, kTest);
-  ASSERT_EQ(fixes.count, 1);
-  EXPECT_LE((fixes.fixes[0].p_map - p).norm(), 1e-7);
-}
-
 TEST(ResidualTest, FailsTheShareOfGoodFitsItWasToldTo) {
   const ResidualTest test(0.05);
   RandomStream random(10, 1);

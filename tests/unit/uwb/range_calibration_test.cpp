@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "pos/core/random.hpp"
 #include "pos/uwb/rigid.hpp"
@@ -78,36 +79,33 @@ TEST(RangeCalibration, CorrelatedRangesMakeItLessSure) {
 
 TEST(RangeCalibration, NothingComesOfNothing) {
   EXPECT_TRUE(calibratedRanges({}, {}).links.empty());
-  EXPECT_EQ(calibratedMotion({}).samples, 0);
 }
 
-TEST(MotionCalibration, CentreAndCourseAreFound) {
-  // A body mounted 5 degrees askew, 0.3 m ahead of the point that follows a winding course.
-  std::vector<TimedPose> poses;
-  for (int k = 0; k < 400; ++k) {
-    const double t = 0.05 * k;
-    const double course = 0.8 * std::sin(0.4 * t);
-    static Eigen::Vector2d centre;
-    if (k == 0) centre.setZero();
-    constexpr double kOffset = 0.0873;
-    const double yaw = course - kOffset;
-    const Eigen::Vector2d p = centre + rotation2(yaw) * Eigen::Vector2d(0.3, 0.0);
-    poses.push_back({stampFromSeconds(t), {p.x(), p.y(), wrapAngle(yaw)}});
-    for (int i = 0; i < 50; ++i) {  // 1 m/s, in steps of 1 ms
-      const double c = 0.8 * std::sin(0.4 * (t + 0.001 * (i + 0.5)));
-      centre += 0.001 * Eigen::Vector2d(std::cos(c), std::sin(c));
+/// 20 Hz from a body that drives round, errors as asked: one part new in every reading, one that lasts.
+RangeErrors foundFor(double reading_sigma, double lasting_sigma, double lasting_time) {
+  RandomStream random(4, 1);
+  auto samples = samplesOf(random, 0.0, 0.0);
+  std::map<std::pair<TagId, AnchorId>, double> lasting;
+  const double keep = std::exp(-0.05 / lasting_time);
+  for (CalibrationSample& s : samples) {
+    const auto [error, first] = lasting.try_emplace({s.tag, s.anchor}, random.normal(0.0, lasting_sigma));
+    if (!first) {
+      error->second = keep * error->second + random.normal(0.0, lasting_sigma * std::sqrt(1.0 - keep * keep));
     }
+    s.range += error->second + random.normal(0.0, reading_sigma);
   }
-  const MotionCalibration found = calibratedMotion(poses);
-  EXPECT_NEAR(found.course_offset, 0.0873, 0.002);
-  EXPECT_NEAR(found.centre_x, 0.3, 0.01);
-  EXPECT_LT(found.residual_sigma, 0.01);
+  return calibratedRanges(samples, {}).errors;
 }
 
-TEST(MotionCalibration, AVehicleThatStandsTellsNothing) {
-  std::vector<TimedPose> poses(100);
-  for (int k = 0; k < 100; ++k) poses[static_cast<std::size_t>(k)].stamp = stampFromSeconds(0.1 * k);
-  EXPECT_EQ(calibratedMotion(poses).samples, 0);
+TEST(RangeCalibration, ErrorsThatLastAreToldFromThoseThatDoNot) {
+  // 12 links for 30 s: about 360 independent pieces of 0.5 s, so that a sigma is good to some 4 %
+  const RangeErrors both = foundFor(0.03, 0.05, 0.5);
+  EXPECT_NEAR(both.reading_sigma, 0.03, 0.003);
+  EXPECT_NEAR(both.lasting_sigma, 0.05, 0.006);
+  EXPECT_NEAR(both.lasting_time, 0.5, 0.15);
+  const RangeErrors white = foundFor(0.05, 0.0, 1.0);
+  EXPECT_NEAR(white.reading_sigma, 0.05, 0.002);
+  EXPECT_LT(white.lasting_sigma, 0.01);
 }
 
 }  // namespace

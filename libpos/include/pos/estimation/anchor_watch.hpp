@@ -26,10 +26,12 @@ class AnchorWatch {
   /// blocked.
   Finding note(int anchor, Stamp stamp, std::optional<Verdict> tested);
   void forget();
-  /// Anchors heard within `restart_after` before the stamp, hidden ones among them.
-  int heardLately(Stamp stamp) const;
-  /// Of those, how many were rejected when last tested.
-  int disagreeing(Stamp stamp) const;
+  struct Heard {
+    int anchors = 0;      ///< hidden ones among them
+    int disagreeing = 0;  ///< of those, rejected when last tested
+  };
+  /// Within `restart_after` before the stamp.
+  Heard heardLately(Stamp stamp) const;
 
  private:
   struct State {

@@ -164,6 +164,19 @@ struct MrptMclConfig {
   bool operator==(const MrptMclConfig&) const = default;
 };
 
+/// What the links read too long beside the biases that are taken off, as one state for each link. Sigma 0: no
+/// such states.
+struct LinkBiasState {
+  double value = 0.0;            ///< m, at the start
+  double sigma = 0.0;            ///< m, how sure the value is at the start
+  double walk_per_sqrt_s = 0.0;  ///< m / sqrt(s), a bias that wanders without bound
+  /// s, a bias that changes with the side an anchor is seen from: it keeps its sigma, and forgets itself over
+  /// this time (a Gauss-Markov process about the value). 0 = it does not.
+  double time = 0.0;
+
+  bool operator==(const LinkBiasState&) const = default;
+};
+
 /// What one link, a tag and an anchor, reads too long (m). Written by `pos calibrate ranges`.
 struct LinkBias {
   TagId tag = 0;
@@ -212,7 +225,7 @@ struct DualUwbConfig {
   double body_height = 0.0;               ///< m, z of the body frame in the map
   double range_sigma = 0.05;              ///< m
   double range_offset = 0.0;              ///< m, subtracted from every range
-  CalibrationState link_bias{0, 0, 0};    ///< m, one state for each tag and anchor (filters only)
+  LinkBiasState link_bias;                ///< filters only
   std::string range_bias_table;           ///< file that holds range_biases and tag_shifts
   std::vector<LinkBias> range_biases;     ///< subtracted from the ranges of one link
   std::vector<TagShift> tag_shifts;       ///< added to the places of tags

@@ -2,7 +2,6 @@
 /// `dual_uwb`, variants `snapshot`, `differential` and `rigid`: a pose from the ranges of one moment, without
 /// any model of motion (spec A, sections 2.4 and 2.5).
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -13,14 +12,23 @@
 
 namespace pos::estimation {
 
+/// One pose that the ranges of an epoch fit.
+struct EpochPose {
+  Belief<Pose2> pose;
+  double cost = 0.0;  ///< chi^2
+  /// Where the tags were measured, for the differential variant.
+  Eigen::Vector2d left_map = Eigen::Vector2d::Zero();
+  Eigen::Vector2d right_map = Eigen::Vector2d::Zero();
+};
+
 /// A pose of one epoch, and whatever else fits as well.
 struct EpochFix {
   Stamp stamp = {};
-  std::array<Belief<Pose2>, 4> poses{};  ///< the likelier first; more than one = not told apart yet
-  std::array<double, 4> costs{};         ///< chi^2 of each
-  int count = 0;
-  std::array<uwb::TagPosition, 4> left{};  ///< of each pose, for the differential variant
-  std::array<uwb::TagPosition, 4> right{};
+  std::vector<EpochPose> poses;  ///< one at least, the likelier first; more = not told apart yet
+
+  const Belief<Pose2>& best() const { return poses.front().pose; }
+  /// Nothing else fits.
+  bool certain() const { return poses.size() == 1; }
 };
 
 class DualUwbEpochs : public Estimator {
@@ -49,6 +57,8 @@ class DualUwbEpochs : public Estimator {
   std::optional<EpochFix> rigidFix() const;
   std::optional<EpochFix> snapshotFix() const;
   EpochFix resolved(EpochFix fix) const;
+  uwb::TagPair pair() const;
+  uwb::TagFixes tagFixes(const TagMount& tag) const;
   void differentiate(EpochFix& fix);
   std::optional<PlanarTwist> twistBetween(const EpochFix& before, const EpochFix& now) const;
 

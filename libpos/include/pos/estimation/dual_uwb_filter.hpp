@@ -36,9 +36,11 @@ class DualUwbFilter : public Estimator {
   IngestReport gather(Stamp stamp, const UwbReading& reading);
   void start(Stamp stamp, const uwb::RigidFixes& fixes);
   Belief<DualUwbState> startBelief(const Belief<Pose2>& pose) const;
+  void forget();
   void restart();
 
   void carryTo(Stamp stamp);
+  DualUwbStep stepTo(const DualUwbState& x, Stamp stamp) const;
   Belief<DualUwbState> carried(Belief<DualUwbState> belief, Stamp stamp) const;
   GyroInput gyroAt(Stamp stamp) const;
   IngestReport correctRange(Stamp stamp, const UwbReading& reading);
@@ -55,7 +57,6 @@ class DualUwbFilter : public Estimator {
   RoadwayTest roadway_;
   UwbLinks links_;
   DualUwbLayout layout_;
-  DualUwbMotion motion_;
   filters::Gate gate_;
   uwb::ResidualTest residual_test_;
   AnchorWatch watch_;

@@ -50,13 +50,21 @@ class DualUwbLayout {
   int links_;
 };
 
-/// The core rows of a step of motion; the links' biases stay, less sure by their walk.
+/// A step of every link's bias: b <- mean + keep (b - mean), less sure by the variance.
+struct LinkStep {
+  double keep = 1.0;
+  double mean = 0.0;      ///< m
+  double variance = 0.0;  ///< m^2
+};
+
+/// A step of motion: the core rows, and what the links' biases do meanwhile.
 struct DualUwbStep {
   static constexpr int kMaxCore = 6;
   using Core = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxCore, kMaxCore>;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxCore, 1> next;
   Core F;
   Core Qd;
+  LinkStep links = {};
 };
 
 /// A turn rate measured by a gyro, rad/s, and for how long it has been taken on trust.
@@ -72,12 +80,12 @@ struct DualUwbMotion {
   /// Constant turn rate and velocity over dt seconds, integrated at the heading of mid-step. Vehicle motion:
   /// the velocity lies `course_offset` from the body's x, plus yaw rate times `motion_centre_x` sideways.
   DualUwbStep step(const DualUwbState& x, GyroInput gyro, double dt) const;
-  /// Nothing moves, nothing is lost.
-  DualUwbStep standing(const DualUwbState& x) const;
+  /// The vehicle stands: nothing but the links' biases changes.
+  DualUwbStep standing(const DualUwbState& x, double dt) const;
 };
 
-/// x <- next, P <- F P F' + Qd with F the identity beyond the core.
-void predict(Belief<DualUwbState>& belief, const DualUwbStep& step, double link_walk_variance);
+/// x <- next, P <- F P F' + Qd with F beyond the core diagonal.
+void predict(Belief<DualUwbState>& belief, const DualUwbStep& step);
 
 using DualUwbRow = filters::Innovation<DualUwbState, 1>;
 

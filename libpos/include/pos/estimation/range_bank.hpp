@@ -4,16 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "pos/core/belief.hpp"
+#include "pos/estimation/hypotheses.hpp"
 #include "pos/estimation/range_models.hpp"
 
 namespace pos::estimation {
 
-/// One belief with the logarithm of its weight.
-struct RangeHypothesis {
-  Belief<RangeState> belief;
-  double log_weight = 0.0;
-};
+using RangeHypothesis = Hypothesis<RangeState>;
 
 /// What a range did to the best hypothesis.
 using RangeCorrection = filters::Correction<1>;
@@ -43,39 +39,18 @@ struct FixCorrection {
 };
 
 /// A bank of hypotheses; never empty once started.
-class RangeBank {
+class RangeBank : public HypothesisBank<RangeState> {
  public:
-  RangeBank() = default;
-  explicit RangeBank(std::vector<RangeHypothesis> hypotheses);
+  using HypothesisBank::HypothesisBank;
 
-  bool empty() const { return hypotheses_.empty(); }
-  std::size_t size() const { return hypotheses_.size(); }
-  const RangeHypothesis& best() const { return hypotheses_[best_]; }
-  std::vector<RangeHypothesis>& hypotheses() { return hypotheses_; }
-  const std::vector<RangeHypothesis>& hypotheses() const { return hypotheses_; }
-  /// Weights that sum to one, in order.
-  std::vector<double> weights() const;
-
-  /// Corrects every hypothesis by one range and says what it did to the best. The likelihood that enters the
-  /// weights is a Gaussian plus a share of outliers, so that one bad range cannot kill a good hypothesis. A
-  /// range that passes the gate but moves a hypothesis by a good part of its uncertainty forks it into one
-  /// that believes the range and one that does not; later ranges decide (a Gaussian sum, Alspach and Sorenson
-  /// 1972).
+  /// Corrects every hypothesis by one range and says what it did to the best. A range that passes the gate
+  /// but moves a hypothesis by a good part of its uncertainty forks it into one that believes the range and
+  /// one that does not; later ranges decide (a Gaussian sum, Alspach and Sorenson 1972).
   RangeCorrection correct(const RangeLayout& layout, const RangeReading& reading, filters::Gate gate);
 
   /// Corrects every hypothesis by a fix, gated at the chi-square quantile `confidence`. A fix may be very
   /// uncertain along one direction (a roadway); then it tells of the other one only.
   FixCorrection correct(const RangeLayout& layout, const FixReading& fix, double confidence);
-
- private:
-  /// Normalises the weights, drops hypotheses that have lost (weight below e^-14 of the best) and joins those
-  /// that have become one, then chooses the best.
-  void settle();
-  void joinTwins();
-  void chooseBest();
-
-  std::vector<RangeHypothesis> hypotheses_;
-  std::size_t best_ = 0;
 };
 
 }  // namespace pos::estimation

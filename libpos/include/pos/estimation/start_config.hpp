@@ -1,6 +1,7 @@
 #pragma once
 /// What an estimator is told of its start.
 
+#include "pos/core/belief.hpp"
 #include "pos/core/pose2.hpp"
 
 namespace pos::estimation {
@@ -21,5 +22,11 @@ struct StartConfig {
 
   bool operator==(const StartConfig&) const = default;
 };
+
+/// Pose and sigmas of a start that is known.
+inline Belief<Pose2> knownStart(const StartConfig& start) {
+  const double p = start.position_sigma * start.position_sigma;
+  return {start.pose, Vector<3>(p, p, start.yaw_sigma * start.yaw_sigma).asDiagonal()};
+}
 
 }  // namespace pos::estimation

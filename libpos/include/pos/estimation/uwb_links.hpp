@@ -30,8 +30,8 @@ struct UwbLookUp {
 
 class UwbLinks {
  public:
-  /// Throws ConfigError when the map has no anchors, or a listed bias names a tag or anchor that is not
-  /// there.
+  /// Throws ConfigError when the map has no anchors, or a listed bias names an anchor that is not there.
+  /// Biases and shifts of tags that are not used do no harm: one table serves every choice of tags.
   UwbLinks(const DualUwbConfig& config, const map::TunnelMap& map);
 
   /// Learns the place of a tag from the log where the configuration lists none.

@@ -36,6 +36,10 @@ struct RequirementResult {
 /// degrees); nothing where this run gives the figure no value (no truth, no heading in it, ...).
 std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& estimator, Duration log_span);
 
+/// The requirement is on a figure of one sensor. Which sensors there are is known after the run only, so that
+/// it cannot be checked for mistyped names before.
+bool isOfASensor(const std::string& text);
+
 /// Reads `[estimator.]metric(<|<=|>|>=)number`. The metric is a path of summary.json ("errors.xy.p95", with
 /// or without "errors."), or a short form: "p95_xy", "rmse_yaw", "nees_xy_mean", "real_time_factor".
 /// UsageError, with the nearest name, for a metric or estimator this run does not know.

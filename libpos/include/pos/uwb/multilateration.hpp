@@ -25,7 +25,6 @@ struct TagFix {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< m^2
   double chi_square = 0.0;                               ///< of the ranges used
   int dof = 0;                                           ///< redundant ranges
-  double hdop = 0.0;                                     ///< sqrt tr (J' J)^-1 over the ranges used
   std::uint32_t used = 0;                                ///< bit i: range i was used
   bool consistent = true;  ///< the residual test passed; where not, the covariance is inflated
 };
@@ -53,10 +52,6 @@ struct TagFixes {
 /// source inflates by max(1, chi^2 / dof) always, which is 25 % too much on average with five redundant
 /// ranges).
 TagFixes multilaterated(std::span<const TagRange> ranges, const ResidualTest& test);
-
-/// The one place next to `start` (a prediction); count 0 when the fit does not converge.
-TagFixes multilateratedNear(std::span<const TagRange> ranges, const Eigen::Vector2d& start,
-                            const ResidualTest& test);
 
 /// Drops the places for which `inside(p_map)` is false, unless none would remain: then the map is no judge.
 template <class Fixes, class Inside>

@@ -25,7 +25,7 @@ struct CalibrationSample {
 };
 
 struct CalibrationOptions {
-  double shift_sigma = 0.05;  ///< m, how far a tag's electrical place may lie from its mount; 0 = not at all
+  double shift_sigma = 0.02;  ///< m, how far a tag's electrical place may lie from its mount; 0 = not at all
   double bias_spread = 0.1;   ///< m, how much the links' biases differ from each other
   double correlation_time = 1.0;  ///< s, ranges of one link within it share their error and count as one
   double outlier_sigmas = 3.5;    ///< residuals beyond this many sigmas are left out
@@ -50,10 +50,21 @@ struct TagCalibration {
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();
 };
 
+/// What the ranges scatter by about the biases: one part new in every reading, one that lasts, as reflections
+/// and an antenna seen from a slowly changing side make it.
+struct RangeErrors {
+  double reading_sigma = 0.0;  ///< m
+  double lasting_sigma = 0.0;  ///< m
+  /// s, over which the lasting part forgets itself; 0 = not within the record. The biases were taken off over
+  /// the same record, so that a time which is not short against it comes out too short.
+  double lasting_time = 0.0;
+};
+
 struct RangeCalibration {
   std::vector<LinkCalibration> links;  ///< by tag, then anchor
   std::vector<TagCalibration> tags;    ///< by tag; empty when shift_sigma is 0
   double residual_sigma = 0.0;         ///< m, of all ranges kept
+  RangeErrors errors;
   int samples = 0;
   int outliers = 0;
 };
@@ -62,24 +73,5 @@ struct RangeCalibration {
 /// rounds. Empty for no samples.
 RangeCalibration calibratedRanges(std::span<const CalibrationSample> samples,
                                   const CalibrationOptions& options);
-
-/// How a vehicle's body frame lies in its motion: where it turns about, and where it heads when driving
-/// straight.
-struct MotionCalibration {
-  double centre_x = 0.0;        ///< m, the body frame lies this far ahead of where it turns about
-  double course_offset = 0.0;   ///< rad, the straight course lies this far left of the body's x
-  double residual_sigma = 0.0;  ///< m/s, sideways velocity that neither explains
-  int samples = 0;              ///< pairs of poses used
-};
-
-struct TimedPose {
-  Stamp stamp = {};
-  Pose2 pose = {};
-};
-
-/// From differences over `interval` seconds of a surveyed trajectory while it moves faster than `speed_min`:
-/// sideways velocity = speed tan(offset) + yaw rate centre. Fewer than 20 usable pairs give samples = 0.
-MotionCalibration calibratedMotion(std::span<const TimedPose> poses, double interval = 0.5,
-                                   double speed_min = 0.1);
 
 }  // namespace pos::uwb

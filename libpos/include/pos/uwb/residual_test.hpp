@@ -9,6 +9,9 @@ namespace pos::uwb {
 /// Most ranges that one fit takes; also the width of its mask of used ranges.
 inline constexpr int kMaxRanges = 32;
 
+/// A difference of chi^2 that rules the worse of two fits out (1 in 1000, two degrees of freedom).
+inline constexpr double kRuledOut = 13.8;
+
 class ResidualTest {
  public:
   /// `significance` is the share of good fits that fail, 0 < significance < 1.

@@ -23,6 +23,9 @@ struct BodyRange {
   double sigma = 0.1;                                    ///< m
 };
 
+/// The range as multilateration of its tag alone wants it.
+TagRange tagRange(const BodyRange& range, double body_height);
+
 /// A range predicted from a pose, with its derivative by [x y yaw].
 struct RangeRow {
   double distance = 0.0;  ///< m

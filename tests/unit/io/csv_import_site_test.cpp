@@ -1,0 +1,82 @@
+// Truth and anchors of an import.
+#include <gmock/gmock.h>
+
+#include "csv_import_samples.hpp"
+#include "pos/core/angle.hpp"
+#include "pos/core/error.hpp"
+
+namespace pos::io {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double kTiny = 1e-12;
+
+const std::string kSomeStream = mappingOf("wheel_ticks", kStamp + "left: {value: 1}, right: {value: 1}");
+ImportResult importedTruth(const std::string& columns, const std::string& table) {
+  const ScratchFolder folder;
+  folder.write("a.csv", "t\n0\n");
+  folder.write("truth.csv", table);
+  return importCsv(
+      parseImportMapping(kSomeStream + "truth: {file: truth.csv, columns: {" + kStamp +
+                             "x: {column: x, unit: m}, y: {column: y, unit: m}" + columns + "}}\n",
+                         "m.yaml"),
+      folder.path());
+}
+
+TEST(CsvImport, TruthSaysWhatItDoesNotHave) {
+  const Truth flat = *importedTruth("", "t,x,y\n0,1,2\n1,3,4\n").truth;
+  EXPECT_FALSE(flat.has_z || flat.has_yaw);
+  EXPECT_EQ(flat.poses.at(1).T_map_body.translation, Eigen::Vector3d(3, 4, 0));
+  const Truth full =
+      *importedTruth(", z: {column: z, unit: cm}, yaw: {column: h, unit: deg}", "t,x,y,z,h\n0,1,2,300,-244\n")
+           .truth;
+  EXPECT_TRUE(full.has_z && full.has_yaw);
+  EXPECT_NEAR(full.poses.at(0).T_map_body.yaw(), radians(116.0), kTiny);
+  EXPECT_NEAR(full.poses.at(0).T_map_body.translation.z(), 3.0, kTiny);
+}
+
+TEST(CsvImport, TruthTakesAQuaternion) {
+  const std::string columns = ", qw: {column: w}, qx: {column: a}, qy: {column: b}, qz: {column: c}";
+  const Truth truth = *importedTruth(columns, "t,x,y,w,a,b,c\n0,1,2,0.7071,0,0,0.7071\n").truth;
+  EXPECT_NEAR(truth.poses.at(0).T_map_body.yaw(), 0.5 * kPi, 1e-9);
+  EXPECT_THAT(complaintOf<DataError>([&] { importedTruth(columns, "t,x,y,w,a,b,c\n0,1,2,0.5,0,0,0\n"); }),
+              HasSubstr("the quaternion does not have length 1"));
+}
+
+TEST(CsvImport, TruthThatDoesNotIncreaseIsRefused) {
+  EXPECT_THAT(complaintOf<DataError>([] { importedTruth("", "t,x,y\n0,1,2\n0,3,4\n"); }),
+              AllOf(HasSubstr("truth.csv:3:1"), HasSubstr("do not increase")));
+}
+
+TEST(CsvImport, AnchorsComeFromATableOrAList) {
+  const ScratchFolder folder;
+  folder.write("a.csv", "t\n0\n");
+  folder.write("anchors.csv", "n,x,y,b\n5,1,2,30\n6,3,4,0\n");
+  const auto table = importCsv(
+      parseImportMapping(
+          kSomeStream + "anchors: {file: anchors.csv, columns: {id: {column: n}, x: {column: x, unit: m}, "
+                        "y: {column: y, unit: m}, z: {value: 150, unit: cm}, range_bias: {column: b, "
+                        "unit: cm}}}\n",
+          "m.yaml"),
+      folder.path());
+  ASSERT_EQ(table.map.anchors.size(), 2U);
+  EXPECT_EQ(table.map.findAnchor(6)->p_map, Eigen::Vector3d(3, 4, 1.5));
+  EXPECT_NEAR(table.map.findAnchor(5)->range_bias, 0.3, kTiny);
+  const auto list =
+      importCsv(parseImportMapping(kSomeStream + "anchors:\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n", "m.yaml"),
+                folder.path());
+  EXPECT_EQ(list.map.findAnchor(5)->p_map, Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(CsvImport, TwoAnchorsOrTagsOfOneIdAreRefused) {
+  const std::string two = ":\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n  - {id: 5, x_m: 1, y_m: 2, z_m: 3}\n";
+  EXPECT_THAT(complaintOf<ConfigError>([&] { imported(kSomeStream + "anchors" + two, "t\n0\n"); }),
+              HasSubstr("same id"));
+  EXPECT_THAT(complaintOf<DataError>([&] { imported(kSomeStream + "tags" + two, "t\n0\n"); }),
+              HasSubstr("two tags"));
+}
+
+}  // namespace
+}  // namespace pos::io
