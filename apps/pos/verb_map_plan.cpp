@@ -156,7 +156,8 @@ ExitCode runPlan(PlanOptions options) {
   print(options.json ? toJson(plan).dump(2) + "\n" : toText(plan, options.rules));
   if (!options.out.empty()) {
     file.map.anchors.insert(file.map.anchors.end(), plan.added.begin(), plan.added.end());
-    writeFile(options.out, io::mapText(file));
+    writeFile(options.out,
+              io::checkedMapText(io::moved(file, folderOf(options.file), folderOf(options.out))));
   }
   return plan.met ? ExitCode::Ok : ExitCode::Missed;
 }
