@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "pos/core/error.hpp"
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_diff.hpp"
 #include "pos/io/text.hpp"
@@ -128,6 +129,15 @@ std::string inWords(const std::vector<io::MapChange>& changes) {
 map::TunnelMap mapOf(const std::string& file) {
   return io::loadMap(file, mrptShare(),
                      [](const std::filesystem::path& grid) { return io::loadGrid(grid.string()); });
+}
+
+void refuseGiven(const std::vector<const CLI::Option*>& options, const std::string& what) {
+  for (const CLI::Option* option : options) {
+    if (option->count() == 0) continue;
+    throw UsageError(Complaint{.what = what + " has no use for this option",
+                               .key = option->get_name(),
+                               .suggestion = "leave it out"});
+  }
 }
 
 void addMapInit(CLI::App& parent, const Verbs&) {

@@ -9,6 +9,15 @@ namespace pos::app {
 /// The map of a file with its grid; throws ConfigError.
 map::TunnelMap mapOf(const std::string& file);
 
+/// The folder a file is in, where relative paths in it start.
+inline std::filesystem::path folderOf(const std::filesystem::path& file) {
+  return file.parent_path();
+}
+
+/// Throws UsageError when one of these options was given, for what is done ("a GeoJSON export") has no use
+/// for it.
+void refuseGiven(const std::vector<const CLI::Option*>& options, const std::string& what);
+
 void addMapCheck(CLI::App& map, const Verbs& verbs);
 void addMapDiff(CLI::App& map, const Verbs& verbs);
 void addMapInfo(CLI::App& map, const Verbs& verbs);

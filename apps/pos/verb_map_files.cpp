@@ -1,5 +1,6 @@
 /// `pos map export` and `render`: maps for other programs, and on paper.
 
+#include <algorithm>
 #include <memory>
 
 #include "pos/core/error.hpp"
@@ -43,13 +44,24 @@ std::optional<report::PlanBackground> backgroundOf(const map::TunnelMap& map, co
   return report::PlanBackground{std::move(picture.bytes), picture.columns, picture.rows, fit.T_map_pixel};
 }
 
+/// The lock intervals with a stretch on a roadway that is locked; where no lock is needed they only confuse.
+std::vector<map::LockInterval> lockedIntervals(const map::Network& network, int merge) {
+  const auto& roadways = network.map().roadways;
+  auto intervals = map::divided(map::RoadGraph(network), network, {.merge = merge});
+  std::erase_if(intervals, [&](const map::LockInterval& interval) {
+    return std::none_of(interval.spans.begin(), interval.spans.end(),
+                        [&](const map::IntervalSpan& span) { return roadways[span.roadway].locked; });
+  });
+  return intervals;
+}
+
 report::MapPlan planOf(const PlanFiles& files, const Voice& voice) {
   const map::TunnelMap map = mapOf(files.map);
   report::PlanOptions options = files.plan;
   if (!files.no_background) options.background = backgroundOf(map, files.map, voice);
   if (!files.no_intervals && !map.roadways.empty()) {
     const map::Network network(std::make_shared<const map::TunnelMap>(map));
-    options.intervals = map::divided(map::RoadGraph(network), network, {.merge = files.merge});
+    options.intervals = lockedIntervals(network, files.merge);
   }
   report::MapPlan plan = report::mapPlan(map, options);
   voice.say(files.out + ": " + io::text::fixed(plan.drawing.width, 0) + " x " +
@@ -78,6 +90,10 @@ struct ExportFiles {
   std::string to;
   std::string frame = "map";
   io::RasterRules raster = {.resolution = 0.1};
+  std::vector<const CLI::Option*> for_dxf;
+  std::vector<const CLI::Option*> for_grids;
+  std::vector<const CLI::Option*> for_plans;
+  std::vector<const CLI::Option*> for_grids_and_plans;
 };
 
 std::string formatOf(const ExportFiles& files) {
@@ -111,27 +127,41 @@ map::OccupancyGrid gridOf(const ExportFiles& files, const Voice& voice) {
   return grid;
 }
 
+/// Options that the format cannot heed are refused rather than ignored.
+void requireUseful(const ExportFiles& files, const std::string& format) {
+  const bool plan = format == "svg" || format == "png";
+  const bool grid = format == "gridmap" || format == "ros";
+  const std::string what = "an export to " + format;
+  if (format != "dxf") refuseGiven(files.for_dxf, what);
+  if (!grid) refuseGiven(files.for_grids, what);
+  if (!plan) refuseGiven(files.for_plans, what);
+  if (!plan && !grid) refuseGiven(files.for_grids_and_plans, what);
+}
+
 void runExport(const ExportFiles& files, const Voice& voice) {
   const std::string format = formatOf(files);
+  requireUseful(files, format);
+  const std::string& in = files.plan.map;
   const std::string& out = files.plan.out;
-  if (format == "geojson") writeFile(out, io::mapGeoJson(io::readMapFile(files.plan.map)));
+  if (format == "geojson")
+    writeFile(out, io::mapGeoJson(io::moved(io::readMapFile(in), folderOf(in), folderOf(out))));
   if (format == "dxf")
-    writeFile(out, io::mapDxf(mapOf(files.plan.map),
-                              files.frame == "mine" ? io::DxfFrame::MineGrid : io::DxfFrame::Map));
+    writeFile(out, io::mapDxf(mapOf(in), files.frame == "mine" ? io::DxfFrame::MineGrid : io::DxfFrame::Map));
   if (format == "svg") writeFile(out, report::drawingSvg(planOf(files.plan, voice).drawing));
   if (format == "png") writeFile(out, report::drawingPng(planOf(files.plan, voice).drawing));
   if (format == "gridmap") io::saveMrptGrid(gridOf(files, voice), out);
   if (format == "ros") io::saveRosGrid(gridOf(files, voice), out);
-  if (format == "beaconmap") io::saveBeaconMap(mapOf(files.plan.map), out);
+  if (format == "beaconmap") io::saveBeaconMap(mapOf(in), out);
 }
 
-void addPlanOptions(CLI::App& verb, PlanFiles& files) {
-  verb.add_option("--width-px", files.plan.width, "Width of the sheet (default: as the map needs)");
-  verb.add_option("--merge", files.merge,
-                  "Every how many-th chamber is a boundary of lock intervals (default 1)")
-      ->check(CLI::Range(1, 1000));
-  verb.add_flag("--no-intervals", files.no_intervals, "Without lock intervals");
-  verb.add_flag("--no-background", files.no_background, "Without the scanned plan");
+std::vector<const CLI::Option*> addPlanOptions(CLI::App& verb, PlanFiles& files) {
+  return {verb.add_option("--width-px", files.plan.width, "Width of the sheet (default: as the map needs)"),
+          verb.add_option("--merge", files.merge,
+                          "Every how many-th chamber is a boundary of lock intervals (default 1)")
+              ->check(CLI::Range(1, 1000)),
+          verb.add_flag("--no-intervals", files.no_intervals,
+                        "Without lock intervals (they are drawn for roadways that are locked)"),
+          verb.add_flag("--no-background", files.no_background, "Without the scanned plan")};
 }
 
 }  // namespace
@@ -145,12 +175,15 @@ void addMapExport(CLI::App& parent, const Verbs& verbs) {
       ->required();
   verb->add_option("--to", files->to, "Format, where the ending does not tell it")
       ->check(CLI::IsMember({"geojson", "dxf", "svg", "png", "gridmap", "beaconmap", "ros"}));
-  verb->add_option("--frame", files->frame, "DXF: coordinates of the map or of the mine's grid (default map)")
-      ->check(CLI::IsMember({"map", "mine"}));
-  verb->add_option("--resolution-m", files->raster.resolution, "Grids: size of a cell (default 0.1)");
-  verb->add_option("--margin-m", files->raster.margin, "Grids: rock around the roadways (default 2)");
-  verb->add_option("--level", files->raster.level, "Grids and plans: only roadways of this level");
-  addPlanOptions(*verb, files->plan);
+  files->for_dxf = {verb->add_option("--frame", files->frame,
+                                     "DXF: coordinates of the map or of the mine's grid (default map)")
+                        ->check(CLI::IsMember({"map", "mine"}))};
+  files->for_grids = {
+      verb->add_option("--resolution-m", files->raster.resolution, "Grids: size of a cell (default 0.1)"),
+      verb->add_option("--margin-m", files->raster.margin, "Grids: rock around the roadways (default 2)")};
+  files->for_grids_and_plans = {
+      verb->add_option("--level", files->raster.level, "Grids and plans: only roadways of this level")};
+  files->for_plans = addPlanOptions(*verb, files->plan);
   addVoice(*verb, *verbs.voice);
   verb->callback([files, verbs] {
     files->plan.plan.level = files->raster.level;

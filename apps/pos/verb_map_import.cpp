@@ -26,6 +26,8 @@ struct ImportFiles {
   std::vector<std::string> layers;
   std::vector<double> grid_origin;
   io::DxfImportRules dxf;
+  std::vector<const CLI::Option*> for_dxf;
+  std::vector<const CLI::Option*> for_tables;
   bool force = false;
   bool json = false;
 };
@@ -84,24 +86,18 @@ Imported fromTables(const ImportFiles& files) {
   return imported;
 }
 
-void requireDxfOnly(const ImportFiles& files, const std::string& kind) {
-  const bool given = !files.layers.empty() || !files.units.empty() || !files.grid_origin.empty();
-  if (!given) return;
-  throw UsageError(
-      Complaint{.what = "--layer, --units and --grid-origin are for DXF drawings",
-                .got = kind,
-                .suggestion = "leave them out; a mapping file names units and mine_grid itself"});
-}
-
 Imported imported(const ImportFiles& files) {
   const std::string ending = fs::path(files.in).extension().string();
-  if (ending == ".dxf" || ending == ".DXF") return fromDxf(files);
-  requireDxfOnly(files, ending);
+  const bool dxf = ending == ".dxf" || ending == ".DXF";
+  const bool tables = ending == ".yaml" || ending == ".yml";
+  if (!dxf) refuseGiven(files.for_dxf, "an import of " + ending);
+  if (!tables) refuseGiven(files.for_tables, "an import of " + ending);
+  if (dxf) return fromDxf(files);
+  if (tables) return fromTables(files);
   if (ending == ".geojson" || ending == ".json") {
     io::GeoJsonImport read = io::loadGeoJson(files.in);
-    return {std::move(read.file), {}, std::move(read.remarks)};
+    return {io::moved(std::move(read.file), folderOf(files.in), folderOf(files.out)), {}, read.remarks};
   }
-  if (ending == ".yaml" || ending == ".yml") return fromTables(files);
   throw UsageError(Complaint{.what = "the ending does not tell what to read",
                              .key = "in",
                              .got = files.in,
@@ -155,37 +151,43 @@ void runImport(const ImportFiles& files, const Voice& voice) {
   std::string& name = import.file.map.name;
   if (!files.name.empty()) name = files.name;
   if (name.empty()) name = fs::path(files.in).stem().string();
-  writeFile(files.out, io::mapText(import.file));
+  writeFile(files.out, io::checkedMapText(import.file));
   sayImport(import, files.out, voice);
   if (files.json) print(reportOf(import).dump(2) + "\n");
 }
 
-void addDxfOptions(CLI::App& verb, ImportFiles& files) {
+std::vector<const CLI::Option*> addDxfOptions(CLI::App& verb, ImportFiles& files) {
   io::DxfImportRules& rules = files.dxf;
-  verb.add_option(
-          "--layer", files.layers,
-          "DXF: NAME=kind; kinds are roadway, anchor, chamber, refuge, portal, ignore; * stands for any "
-          "letters")
-      ->allow_extra_args(false);
-  verb.add_option("--units", files.units, "DXF: unit of the drawing, where it does not say or is wrong")
-      ->check(CLI::IsMember({"m", "dm", "cm", "mm", "km", "in", "ft"}));
-  verb.add_option("--grid-origin", files.grid_origin,
-                  "DXF: the drawing is in the mine's grid; E,N[,H[,ROTATION_DEG]] of the map's origin in it")
-      ->delimiter(',')
-      ->expected(2, 4);
-  verb.add_option("--grid-name", files.grid_name, "DXF: name of the mine's grid and datum");
-  verb.add_option("--roadway-width-m", rules.roadway.width, "DXF: width of all roadways (default 4)")
-      ->check(CLI::Range(0.5, 100.0));
-  verb.add_option("--roadway-height-m", rules.roadway.height, "DXF: height of all roadways (default 3)")
-      ->check(CLI::Range(0.5, 100.0));
-  verb.add_option("--join-m", rules.join, "DXF: loose lines whose ends are this near are one (default 0.01)")
-      ->check(CLI::Range(0.0, 10.0));
-  verb.add_option("--junction-reach-m", rules.junction_reach,
-                  "DXF: a roadway that ends this near another joins it (default 0.5)")
-      ->check(CLI::Range(0.0, 100.0));
-  verb.add_option("--label-distance-m", rules.label_distance,
-                  "DXF: a text this near is an object's name (default 5)")
-      ->check(CLI::Range(0.0, 1000.0));
+  CLI::Option* origin =
+      verb.add_option(
+              "--grid-origin", files.grid_origin,
+              "DXF: the drawing is in the mine's grid; E,N[,H[,ROTATION_DEG]] of the map's origin in it")
+          ->delimiter(',')
+          ->expected(2, 4);
+  return {
+      verb.add_option(
+              "--layer", files.layers,
+              "DXF: NAME=kind; kinds are roadway, anchor, chamber, refuge, portal, ignore; * stands for any "
+              "letters")
+          ->allow_extra_args(false),
+      verb.add_option("--units", files.units, "DXF: unit of the drawing, where it does not say or is wrong")
+          ->check(CLI::IsMember({"m", "dm", "cm", "mm", "km", "in", "ft"})),
+      origin,
+      verb.add_option("--grid-name", files.grid_name, "DXF: name of the mine's grid and datum")
+          ->needs(origin),
+      verb.add_option("--roadway-width-m", rules.roadway.width, "DXF: width of all roadways (default 4)")
+          ->check(CLI::Range(0.5, 100.0)),
+      verb.add_option("--roadway-height-m", rules.roadway.height, "DXF: height of all roadways (default 3)")
+          ->check(CLI::Range(0.5, 100.0)),
+      verb.add_option("--join-m", rules.join,
+                      "DXF: loose lines whose ends are this near are one (default 0.01)")
+          ->check(CLI::Range(0.0, 10.0)),
+      verb.add_option("--junction-reach-m", rules.junction_reach,
+                      "DXF: a roadway that ends this near another joins it (default 0.5)")
+          ->check(CLI::Range(0.0, 100.0)),
+      verb.add_option("--label-distance-m", rules.label_distance,
+                      "DXF: a text this near is an object's name (default 5)")
+          ->check(CLI::Range(0.0, 1000.0))};
 }
 
 }  // namespace
@@ -196,8 +198,9 @@ void addMapImport(CLI::App& parent, const Verbs& verbs) {
   verb->add_option("in", files->in, "*.dxf, *.geojson, or the *.yaml that maps CSV tables")->required();
   verb->add_option("--out", files->out, "Map file to write")->required();
   verb->add_option("--name", files->name, "Name of the map (default: as in the source, or the file's)");
-  verb->add_option("--data", files->data, "CSV: folder with the tables (default: the mapping's)");
-  addDxfOptions(*verb, *files);
+  files->for_tables = {
+      verb->add_option("--data", files->data, "CSV: folder with the tables (default: the mapping's)")};
+  files->for_dxf = addDxfOptions(*verb, *files);
   verb->add_flag("--force", files->force, "Replace the map file if it is there");
   verb->add_flag("--json", files->json, "Print what was read and left out as JSON");
   addVoice(*verb, *verbs.voice);

@@ -89,16 +89,17 @@ void runCoverage(const CoverageOptions& options) {
   const map::CoverageRules rules = rulesOf(options.radio, *tunnel_map, 1.0);
   Json json{
       {"map", options.file}, {"range_sigma_m", rules.range_sigma}, {"range_limit_m", rules.range_limit}};
-  std::vector<map::CoverageSample> all;
+  const std::vector<map::CoverageSample> all = coverage(network, rules);
+  std::vector<std::vector<map::CoverageSample>> of_roadway(tunnel_map->roadways.size());
+  for (const map::CoverageSample& sample : all) of_roadway[sample.point.roadway].push_back(sample);
   std::string text;
   json["roadways"] = Json::array();
-  for (map::RoadwayIndex r = 0; r < tunnel_map->roadways.size(); ++r) {
-    const auto samples = coverage(network, r, rules);
-    all.insert(all.end(), samples.begin(), samples.end());
-    Json row = toJson(summary(samples));
+  for (map::RoadwayIndex r = 0; r < of_roadway.size(); ++r) {
+    const map::CoverageSummary summary = map::summary(of_roadway[r]);
+    Json row = toJson(summary);
     row["id"] = tunnel_map->roadways[r].id;
     json["roadways"].push_back(std::move(row));
-    text += toText("roadway " + tunnel_map->roadways[r].id, summary(samples));
+    text += toText("roadway " + tunnel_map->roadways[r].id, summary);
   }
   json["whole"] = toJson(summary(all));
   if (!options.csv.empty()) writeFile(options.csv, csv(*tunnel_map, all));
@@ -155,7 +156,8 @@ ExitCode runPlan(PlanOptions options) {
   print(options.json ? toJson(plan).dump(2) + "\n" : toText(plan, options.rules));
   if (!options.out.empty()) {
     file.map.anchors.insert(file.map.anchors.end(), plan.added.begin(), plan.added.end());
-    writeFile(options.out, io::mapText(file));
+    writeFile(options.out,
+              io::checkedMapText(io::moved(file, folderOf(options.file), folderOf(options.out))));
   }
   return plan.met ? ExitCode::Ok : ExitCode::Missed;
 }

@@ -96,6 +96,43 @@ TEST_F(MapVerbs, IntervalsOfMapAndRoute) {
   EXPECT_THAT(wrong.err, HasSubstr("did you mean 'into_branch'?"));
 }
 
+TEST_F(MapVerbs, CoverageWithoutRoadwaysIsNoResult) {
+  for (const char* verb : {"coverage", "plan-anchors"}) {
+    const RunResult run = bench_.pos({"map", verb, site("uwb_demo")});
+    EXPECT_EQ(run.exit_code, 3) << verb;
+    EXPECT_THAT(run.err, HasSubstr("no roadways"));
+  }
+}
+
+TEST_F(MapVerbs, AMapWrittenElsewhereFindsItsGrid) {
+  bench_.pos({"map", "plan-anchors", site("longwall"), "--out", "planned.yaml"});
+  EXPECT_EQ(bench_.pos({"map", "info", "planned.yaml"}).exit_code, 0);
+  EXPECT_EQ(bench_.pos({"map", "export", site("longwall"), "--out", "plan.geojson"}).exit_code, 0);
+  EXPECT_EQ(bench_.pos({"map", "import", "plan.geojson", "--out", "back.yaml"}).exit_code, 0);
+  EXPECT_EQ(bench_.pos({"map", "info", "back.yaml"}).exit_code, 0);
+}
+
+TEST_F(MapVerbs, OptionsWithoutUseAreRefused) {
+  for (const std::vector<std::string>& extra : std::vector<std::vector<std::string>>{
+           {"--level", "-60"}, {"--resolution-m", "1"}, {"--frame", "mine"}, {"--no-intervals"}}) {
+    std::vector<std::string> arguments{"map", "export", site("shift_mine"), "--out", "plan.geojson"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const RunResult run = bench_.pos(arguments);
+    EXPECT_EQ(run.exit_code, 2) << extra[0];
+    EXPECT_THAT(run.err, HasSubstr(extra[0]));
+  }
+  EXPECT_EQ(bench_.pos({"map", "import", "x.geojson", "--out", "x.yaml", "--join-m", "1"}).exit_code, 2);
+  EXPECT_EQ(bench_.pos({"map", "import", "x.dxf", "--out", "x.yaml", "--data", "."}).exit_code, 2);
+  EXPECT_EQ(bench_.pos({"map", "import", "x.dxf", "--out", "x.yaml", "--grid-name", "G"}).exit_code, 2);
+}
+
+TEST_F(MapVerbs, LockIntervalsAreDrawnWhereRoadwaysAreLocked) {
+  bench_.pos({"map", "render", site("interval_demo"), "--out", "locked.svg"});
+  bench_.pos({"map", "render", site("longwall"), "--out", "open.svg"});
+  EXPECT_THAT(bench_.read("locked.svg"), HasSubstr(">lock intervals<"));
+  EXPECT_THAT(bench_.read("open.svg"), ::testing::Not(HasSubstr("lock interval")));
+}
+
 TEST_F(MapVerbs, InitWritesAMapInOrder) {
   EXPECT_EQ(bench_.pos({"map", "init", "--out", "mine.yaml"}).exit_code, 0);
   const RunResult check = bench_.pos({"map", "check", "mine.yaml"});

@@ -1,6 +1,9 @@
 // Loose lines joined to chains, and chains made centrelines.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
+#include <utility>
 
 #include "dxf_parts.hpp"
 #include "pos/core/angle.hpp"
@@ -21,42 +24,56 @@ std::vector<DxfVertex> reversed(const std::vector<DxfVertex>& vertices) {
   return back;
 }
 
-/// Ends sorted by x, so that neighbours are found without comparing all pairs.
 struct End {
   Eigen::Vector3d p;
   std::size_t path;
   bool first;
 };
 
+/// Ends sorted by squares of the plan, so that neighbours are found without comparing all pairs.
 class Ends {
  public:
   Ends(const std::vector<const Shape*>& loose, double reach) : reach_(reach) {
     for (std::size_t i = 0; i < loose.size(); ++i) {
-      ends_.push_back({loose[i]->vertices.front().p, i, true});
-      ends_.push_back({loose[i]->vertices.back().p, i, false});
+      ends_.push_back({squareOf(loose[i]->vertices.front().p), {loose[i]->vertices.front().p, i, true}});
+      ends_.push_back({squareOf(loose[i]->vertices.back().p), {loose[i]->vertices.back().p, i, false}});
     }
-    std::sort(ends_.begin(), ends_.end(), [](const End& a, const End& b) {
-      return a.p.x() != b.p.x() ? a.p.x() < b.p.x() : a.path != b.path ? a.path < b.path : a.first < b.first;
+    std::sort(ends_.begin(), ends_.end(), [](const Placed& a, const Placed& b) {
+      return std::tie(a.square, a.end.path, a.end.first) < std::tie(b.square, b.end.path, b.end.first);
     });
   }
 
   /// The one other end at `p`; nothing when there are none or several.
   const End* partner(const Eigen::Vector3d& p, std::size_t path, bool first) const {
+    const Square middle = squareOf(p);
     const End* only = nullptr;
-    auto end = std::lower_bound(ends_.begin(), ends_.end(), p.x() - reach_,
-                                [](const End& e, double x) { return e.p.x() < x; });
-    for (; end != ends_.end() && end->p.x() <= p.x() + reach_; ++end) {
-      if (end->path == path && end->first == first) continue;
-      if ((end->p - p).norm() > reach_) continue;
-      if (only != nullptr) return nullptr;
-      only = &*end;
+    for (std::int64_t column = middle.first - 1; column <= middle.first + 1; ++column) {
+      auto at = std::lower_bound(ends_.begin(), ends_.end(), Square{column, middle.second - 1},
+                                 [](const Placed& e, const Square& square) { return e.square < square; });
+      for (; at != ends_.end() && at->square <= Square{column, middle.second + 1}; ++at) {
+        const End& end = at->end;
+        if ((end.path == path && end.first == first) || (end.p - p).norm() > reach_) continue;
+        if (only != nullptr) return nullptr;
+        only = &end;
+      }
     }
     return only;
   }
 
  private:
+  using Square = std::pair<std::int64_t, std::int64_t>;
+  struct Placed {
+    Square square;
+    End end;
+  };
+  /// As wide as the reach, so that what is within reach lies in the same square or one beside it.
+  Square squareOf(const Eigen::Vector3d& p) const {
+    const double width = std::max(reach_, kSamePoint);
+    return {std::llround(p.x() / width), std::llround(p.y() / width)};
+  }
+
   double reach_;
-  std::vector<End> ends_;
+  std::vector<Placed> ends_;
 };
 
 void append(Chain& chain, const Shape& shape, bool forward) {

@@ -2,10 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "pos/core/error.hpp"
 #include "pos/io/dxf_map.hpp"
 #include "pos/io/text.hpp"
+#include "pos/map/network.hpp"
 #include "pos/map/outline.hpp"
 
 namespace pos::io {
@@ -46,13 +48,12 @@ std::string dxfText(const std::string& utf8) {
 
 class Writer {
  public:
-  Writer(const map::TunnelMap& map, DxfFrame frame) : map_(map), frame_(frame) {
-    for (const map::Roadway& roadway : map.roadways) lines_.emplace_back(roadway);
-  }
+  Writer(const map::TunnelMap& map, DxfFrame frame)
+      : network_(std::make_shared<const map::TunnelMap>(map)), map_(network_.map()), frame_(frame) {}
 
   std::string text() {
     head();
-    for (std::size_t i = 0; i < lines_.size(); ++i) roadway(i);
+    for (map::RoadwayIndex i = 0; i < map_.roadways.size(); ++i) roadway(i);
     for (const map::Chamber& chamber : map_.chambers) this->chamber(chamber);
     for (const map::Anchor& anchor : map_.anchors) anchorPoint(anchor);
     for (const map::Junction& junction : map_.junctions) {
@@ -66,10 +67,12 @@ class Writer {
     }
     for (const map::StopLine& stop : map_.stop_lines) stopLine(stop);
     for (const map::RestrictedZone& zone : map_.zones) {
-      const std::size_t i = indexOf(zone.stretch.roadway);
+      const map::RoadwayIndex i = network_.indexOf(zone.stretch.roadway);
       const double half = 0.5 * map_.roadways[i].width;
-      outline("ZONE", i, map::strip(lines_[i], zone.stretch.from, zone.stretch.to, half, -half, kWallSagitta),
-              zone.stretch.from);
+      outline(
+          "ZONE", i,
+          map::strip(network_.centreline(i), zone.stretch.from, zone.stretch.to, half, -half, kWallSagitta),
+          zone.stretch.from);
     }
     return body_ + "  0\nENDSEC\n  0\nEOF\n";
   }
@@ -148,7 +151,7 @@ class Writer {
   }
   void outline(const char* layer, std::size_t roadway, const map::PlanLine& polygon, double chainage) {
     std::vector<DxfVertex> vertices;
-    const double z = lines_[roadway].at(chainage).p_map.z();
+    const double z = network_.centreline(roadway).at(chainage).p_map.z();
     for (const Eigen::Vector2d& p : polygon) vertices.push_back({{p.x(), p.y(), z}, 0.0});
     polyline(layer, vertices, 1);
   }
@@ -166,7 +169,7 @@ class Writer {
 
   void roadway(std::size_t i) {
     const map::Roadway& roadway = map_.roadways[i];
-    const map::Centreline& line = lines_[i];
+    const map::Centreline& line = network_.centreline(i);
     bool level = true;
     for (const auto& point : roadway.centreline)
       level = level && std::abs(point.p_map.z() - roadway.centreline.front().p_map.z()) < 1e-7;
@@ -188,9 +191,9 @@ class Writer {
   }
 
   void chamber(const map::Chamber& chamber) {
-    const std::size_t i = indexOf(chamber.place.roadway);
+    const map::RoadwayIndex i = network_.indexOf(chamber.place.roadway);
     const char* layer = chamber.kind == map::Chamber::Kind::Refuge ? "REFUGE" : "CHAMBER";
-    outline(layer, i, map::chamberOutline(map_.roadways[i], lines_[i], chamber, kWallSagitta),
+    outline(layer, i, map::chamberOutline(map_.roadways[i], network_.centreline(i), chamber, kWallSagitta),
             chamber.place.chainage);
     const double sign = chamber.side == map::Side::Left ? 1.0 : -1.0;
     const double behind = chamber.depth / map_.roadways[i].width;  // in roadway widths, as at() counts
@@ -205,23 +208,15 @@ class Writer {
     place(at(stop.place, -0.5), 11);
   }
 
-  std::size_t indexOf(const std::string& id) const {
-    for (std::size_t i = 0; i < map_.roadways.size(); ++i) {
-      if (map_.roadways[i].id == id) return i;
-    }
-    throw ContractError("a validated map names a roadway that it does not have");
-  }
   /// The place, moved to the left by a share of the roadway's width.
   Eigen::Vector3d at(const map::RoadwayPlace& place, double share = 0.0) const {
-    const std::size_t i = indexOf(place.roadway);
-    const map::CentrelineState state = lines_[i].at(place.chainage);
-    const double offset = share * map_.roadways[i].width;
-    return state.p_map + offset * Eigen::Vector3d(-std::sin(state.heading), std::cos(state.heading), 0.0);
+    const map::RoadwayIndex i = network_.indexOf(place.roadway);
+    return network_.toMap({i, place.chainage, share * map_.roadways[i].width, 0.0});
   }
 
+  map::Network network_;
   const map::TunnelMap& map_;
   DxfFrame frame_;
-  std::vector<map::Centreline> lines_;
   std::string body_;
 };
 
@@ -233,7 +228,7 @@ std::string mapDxf(const map::TunnelMap& map, DxfFrame frame) {
                                 .key = "mine_grid",
                                 .suggestion = "add mine_grid to the map, or export in the map's own frame"});
   }
-  return Writer(map::validated(map), frame).text();
+  return Writer(map, frame).text();
 }
 
 }  // namespace pos::io

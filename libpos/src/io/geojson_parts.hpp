@@ -6,7 +6,7 @@
 
 #include "pos/io/map_geojson.hpp"
 #include "pos/io/yaml_document.hpp"
-#include "pos/map/centreline.hpp"
+#include "pos/map/network.hpp"
 
 namespace pos::io::geojson {
 
@@ -41,10 +41,9 @@ class Shapes {
   Eigen::Vector3d at(const map::RoadwayPlace& place) const;
   Eigen::Vector3d beside(const map::RoadwayPlace& place, map::Side side, double beyond_wall) const;
   Line along(const map::RoadwayStretch& stretch) const;
-  std::size_t indexOf(const std::string& roadway) const;
 
+  map::Network network_;
   const map::TunnelMap& map_;
-  std::vector<map::Centreline> lines_;
 };
 
 /// One feature on its way into the map's tree.

@@ -1,5 +1,5 @@
 // Maps as GeoJSON.
-#include <cmath>
+#include <memory>
 
 #include "geojson_parts.hpp"
 #include "json_document.hpp"
@@ -10,28 +10,21 @@
 namespace pos::io {
 namespace geojson {
 
-Shapes::Shapes(const map::TunnelMap& map) : map_(map), lines_(map.roadways.begin(), map.roadways.end()) {}
-
-std::size_t Shapes::indexOf(const std::string& roadway) const {
-  for (std::size_t i = 0; i < map_.roadways.size(); ++i) {
-    if (map_.roadways[i].id == roadway) return i;
-  }
-  throw ContractError("a validated map names a roadway that it does not have");
-}
+Shapes::Shapes(const map::TunnelMap& map)
+    : network_(std::make_shared<const map::TunnelMap>(map)), map_(network_.map()) {}
 
 Eigen::Vector3d Shapes::at(const map::RoadwayPlace& place) const {
-  return lines_[indexOf(place.roadway)].at(place.chainage).p_map;
+  return network_.toMap({network_.indexOf(place.roadway), place.chainage, 0.0, 0.0});
 }
 
 Eigen::Vector3d Shapes::beside(const map::RoadwayPlace& place, map::Side side, double beyond_wall) const {
-  const std::size_t i = indexOf(place.roadway);
-  const map::CentrelineState state = lines_[i].at(place.chainage);
+  const map::RoadwayIndex i = network_.indexOf(place.roadway);
   const double offset = (0.5 * map_.roadways[i].width + beyond_wall) * (side == map::Side::Left ? 1.0 : -1.0);
-  return state.p_map + offset * Eigen::Vector3d(-std::sin(state.heading), std::cos(state.heading), 0.0);
+  return network_.toMap({i, place.chainage, offset, 0.0});
 }
 
 Shapes::Line Shapes::along(const map::RoadwayStretch& stretch) const {
-  const map::Centreline& line = lines_[indexOf(stretch.roadway)];
+  const map::Centreline& line = network_.centreline(network_.indexOf(stretch.roadway));
   Line points;
   for (const double chainage : map::sampleChainages(line, stretch.from, stretch.to, 0.05))
     points.push_back(line.at(chainage).p_map);

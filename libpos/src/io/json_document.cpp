@@ -153,6 +153,16 @@ class Builder {
   YamlNode root_;
 };
 
+std::string scalarJson(const YamlNode& node) {
+  if (node.kind == YamlNode::Kind::Null) return "null";
+  if (node.quoted) return quoted(node.text);
+  if (node.text == "-0") return "-0.0";  // JSON readers take -0 for the integer 0
+  const bool bare = isNumber(node.text) || node.text == "true" || node.text == "false";
+  return bare ? node.text : quoted(node.text);
+}
+
+}  // namespace
+
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -169,16 +179,6 @@ std::string quoted(const std::string& text) {
   }
   return out + "\"";
 }
-
-std::string scalarJson(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::Null) return "null";
-  if (node.quoted) return quoted(node.text);
-  if (node.text == "-0") return "-0.0";  // JSON readers take -0 for the integer 0
-  const bool bare = isNumber(node.text) || node.text == "true" || node.text == "false";
-  return bare ? node.text : quoted(node.text);
-}
-
-}  // namespace
 
 YamlDocument parseJson(const std::string& text, const std::filesystem::path& file) {
   std::array<Reached, 2> reached{};

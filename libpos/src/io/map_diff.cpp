@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
 #include "pos/io/units.hpp"
@@ -95,12 +96,13 @@ std::vector<MapChange> tableChanges(const std::string& object, const YamlNode& b
   return changes;
 }
 
-const YamlNode* withId(const YamlNode* list, const std::string& id) {
-  if (list == nullptr) return nullptr;
-  for (const YamlNode& item : list->items) {
-    if (textOf(item.find("id")) == id) return &item;
-  }
-  return nullptr;
+using ById = std::map<std::string, const YamlNode*>;
+
+ById byId(const YamlNode* list) {
+  ById objects;
+  if (list == nullptr) return objects;
+  for (const YamlNode& item : list->items) objects.emplace(textOf(item.find("id")), &item);
+  return objects;
 }
 
 MapChange wholeObject(Kind kind, const std::string& object, const YamlNode& item) {
@@ -115,17 +117,19 @@ MapChange wholeObject(Kind kind, const std::string& object, const YamlNode& item
 std::vector<MapChange> objectChanges(const std::string& list, const YamlNode* before, const YamlNode* after) {
   std::vector<MapChange> changes;
   const auto nameOf = [&](const YamlNode& item) { return singular(list) + " " + textOf(item.find("id")); };
+  const ById there_before = byId(before);
+  const ById there_after = byId(after);
   for (const YamlNode& item : before != nullptr ? before->items : std::vector<YamlNode>{}) {
-    const YamlNode* other = withId(after, textOf(item.find("id")));
-    if (other == nullptr) {
+    const auto other = there_after.find(textOf(item.find("id")));
+    if (other == there_after.end()) {
       changes.push_back(wholeObject(Kind::Removed, nameOf(item), item));
       continue;
     }
-    const std::vector<MapChange> inner = tableChanges(nameOf(item), item, *other);
+    const std::vector<MapChange> inner = tableChanges(nameOf(item), item, *other->second);
     changes.insert(changes.end(), inner.begin(), inner.end());
   }
   for (const YamlNode& item : after != nullptr ? after->items : std::vector<YamlNode>{}) {
-    if (withId(before, textOf(item.find("id"))) == nullptr)
+    if (!there_before.contains(textOf(item.find("id"))))
       changes.push_back(wholeObject(Kind::Added, nameOf(item), item));
   }
   return changes;

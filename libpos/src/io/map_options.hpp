@@ -6,6 +6,9 @@
 
 namespace pos::io {
 
+// map_yaml.cpp
+OptionTable<map::MineGrid> mineGridOptions();
+
 // map_options_roadways.cpp
 OptionTable<map::Roadway> roadwayOptions();
 OptionTable<map::Junction> junctionOptions();

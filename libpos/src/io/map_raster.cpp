@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "pos/core/error.hpp"
 #include "pos/io/text.hpp"
@@ -17,10 +18,16 @@ using map::PlanLine;
 
 constexpr double kMostCells = 2e8;
 
+std::string joinedLevels(const std::set<std::string>& levels) {
+  return text::joined({levels.begin(), levels.end()});
+}
+
 std::vector<PlanLine> openSpaces(const map::TunnelMap& map, const RasterRules& rules) {
   const double tolerance = 0.1 * rules.resolution;
   std::vector<PlanLine> spaces;
+  std::set<std::string> levels;
   for (const map::Roadway& roadway : map.roadways) {
+    levels.insert(roadway.level);
     if (!rules.level.empty() && roadway.level != rules.level) continue;
     const map::Centreline line(roadway);
     const double half = 0.5 * roadway.width;
@@ -33,7 +40,8 @@ std::vector<PlanLine> openSpaces(const map::TunnelMap& map, const RasterRules& r
   if (spaces.empty()) {
     throw ConfigError(Complaint{.what = "there are no roadways to make a grid of",
                                 .key = rules.level.empty() ? "roadways" : "level",
-                                .got = rules.level});
+                                .got = rules.level,
+                                .expected = rules.level.empty() ? "" : "one of: " + joinedLevels(levels)});
   }
   return spaces;
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "map_assembly.hpp"
+#include "map_options.hpp"
 #include "pos/core/error.hpp"
 #include "pos/io/csv_table.hpp"
 #include "pos/io/import_mapping.hpp"
-#include "pos/io/options.hpp"
+#include "pos/io/map_yaml.hpp"
 #include "pos/io/text.hpp"
 
 namespace pos::io {
@@ -76,24 +78,12 @@ OptionTable<AnchorTable> anchorTableOptions() {
       .text("survey_date", &AnchorTable::survey_date, "Column with the day of the survey, YYYY-MM-DD.");
 }
 
-OptionTable<MineGrid> gridOptions() {
-  return OptionTable<MineGrid>("mine_grid",
-                               "The grid of the tables' coordinates, and the map's origin in it.")
-      .text("name", &MineGrid::name, "Name of grid and datum.")
-      .number("easting_m", &MineGrid::easting, anything(), "Easting of the map's origin.")
-      .required()
-      .number("northing_m", &MineGrid::northing, anything(), "Northing of the map's origin.")
-      .required()
-      .number("elevation_m", &MineGrid::elevation, anything(), "Elevation of the map's origin.")
-      .number("rotation_deg", &MineGrid::rotation, between(-360, 360),
-              "From the grid's east counter-clockwise to the map's x axis.");
-}
-
 OptionTable<TableMapImport> mappingOptions() {
   return OptionTable<TableMapImport>("Map import", "A map from a surveyor's tables.")
       .text("name", &TableMapImport::name, "Name of the map.")
       .required()
-      .table("mine_grid", &TableMapImport::mine_grid, gridOptions(), "The grid of the tables' coordinates.")
+      .table("mine_grid", &TableMapImport::mine_grid, mineGridOptions(),
+             "The grid of the tables' coordinates, and the map's origin in it.")
       .number("junction_reach_m", &TableMapImport::junction_reach, between(0, 100),
               "A roadway that ends this near another one joins it.")
       .table("stations", &TableMapImport::stations, stationOptions(), "Surveyed points along the roadways.")
@@ -166,12 +156,33 @@ map::Roadway& roadwayOf(std::vector<map::Roadway>& roadways, const std::string& 
   return roadways.back();
 }
 
+/// Where the objects of the map stand in the tables: "roadways[0].centreline[3]" -> stations.csv, line 5.
+using Rows = std::map<std::string, FilePlace>;
+
+/// The complaint about the map with the row that it is about.
+Complaint placed(Complaint complaint, const Rows& rows) {
+  for (std::string key = complaint.key; !key.empty();) {
+    const auto row = rows.find(key);
+    if (row != rows.end()) {
+      complaint.place = row->second;
+      break;
+    }
+    const std::size_t parent = key.rfind('.');
+    key.resize(parent == std::string::npos ? 0 : parent);
+  }
+  return complaint;
+}
+
+std::string indexed(const std::string& list, std::size_t index) {
+  return list + "[" + std::to_string(index) + "]";
+}
+
 struct Stations {
   std::vector<map::Roadway> roadways;
   std::size_t rows = 0;
 };
 
-Stations stationsOf(const TableMapImport& mapping, const std::filesystem::path& folder) {
+Stations stationsOf(const TableMapImport& mapping, const std::filesystem::path& folder, Rows& rows) {
   const StationTable& table = *mapping.stations;
   CsvReader csv(folder / table.file);
   const std::size_t id_column = csv.column(table.roadway);
@@ -185,7 +196,10 @@ Stations stationsOf(const TableMapImport& mapping, const std::filesystem::path& 
     const std::string id(csv.cell(id_column));
     if (id.empty()) csv.refuse(id_column, "a station without roadway", "the id of its roadway");
     map::Roadway& roadway = roadwayOf(read.roadways, id);
+    const std::string key = indexed("roadways", static_cast<std::size_t>(&roadway - read.roadways.data()));
+    rows[indexed(key + ".centreline", roadway.centreline.size())] = csv.place(id_column);
     if (roadway.centreline.empty()) {
+      rows[key] = csv.place(id_column);
       roadway.width = width().value_or(roadway.width);
       roadway.height = height().value_or(roadway.height);
       roadway.chainage_start = station().value_or(0.0);
@@ -195,7 +209,8 @@ Stations stationsOf(const TableMapImport& mapping, const std::filesystem::path& 
   return read;
 }
 
-std::vector<map::Anchor> anchorsOf(const TableMapImport& mapping, const std::filesystem::path& folder) {
+std::vector<map::Anchor> anchorsOf(const TableMapImport& mapping, const std::filesystem::path& folder,
+                                   Rows& rows) {
   std::vector<map::Anchor> anchors;
   const AnchorTable& table = *mapping.anchors;
   CsvReader csv(folder / table.file);
@@ -210,6 +225,7 @@ std::vector<map::Anchor> anchorsOf(const TableMapImport& mapping, const std::fil
     const std::int64_t id = csv.integer(id_column);
     if (id < std::numeric_limits<AnchorId>::min() || id > std::numeric_limits<AnchorId>::max())
       csv.refuse(id_column, "the number is too large for an id", "a 32-bit integer");
+    rows[indexed("anchors", anchors.size())] = csv.place(id_column);
     map::Anchor anchor;
     anchor.id = static_cast<AnchorId>(id);
     anchor.name = textOf(table.name);
@@ -244,16 +260,21 @@ TableMapImport readTableMapping(const std::filesystem::path& file) {
 
 TableMap mapFromTables(const TableMapImport& mapping, const std::filesystem::path& data_dir) {
   TableMap result;
+  Rows rows;
   result.map.name = mapping.name;
   result.map.mine_grid = mapping.mine_grid;
   if (mapping.stations) {
-    Stations stations = stationsOf(mapping, data_dir);
+    Stations stations = stationsOf(mapping, data_dir, rows);
     result.map.roadways = std::move(stations.roadways);
     result.stations = stations.rows;
   }
-  if (mapping.anchors) result.map.anchors = anchorsOf(mapping, data_dir);
+  if (mapping.anchors) result.map.anchors = anchorsOf(mapping, data_dir, rows);
   requireLocal(pointsOf(result.map), mapping.stations ? mapping.stations->file : mapping.anchors->file);
-  result.map = map::validated(std::move(result.map));
+  try {
+    (void)checkedMapText({.map = result.map, .grid = {}});
+  } catch (const ConfigError& error) {
+    throw ConfigError(placed(error.complaint(), rows));
+  }
   result.map.junctions = junctionsFound(result.map.roadways, mapping.junction_reach);
   return result;
 }

@@ -37,18 +37,6 @@ OptionTable<GeodeticOrigin> originOptions() {
           "z_m", [](auto& origin) -> auto& { return origin.p_map.z(); }, anything(), "The same: height.");
 }
 
-OptionTable<MineGrid> mineGridOptions() {
-  return OptionTable<MineGrid>("mine_grid", "Where the map's origin sits in the mine's own grid.")
-      .text("name", &MineGrid::name, "Name of the grid and its datum.")
-      .number("easting_m", &MineGrid::easting, anything(), "Easting of the map's origin.")
-      .required()
-      .number("northing_m", &MineGrid::northing, anything(), "Northing of the map's origin.")
-      .required()
-      .number("elevation_m", &MineGrid::elevation, anything(), "Height of the map's origin.")
-      .number("rotation_deg", &MineGrid::rotation, between(-180, 180),
-              "From the grid's east counter-clockwise to the map's x axis.");
-}
-
 OptionTable<Anchor> anchorOptions() {
   return OptionTable<Anchor>("anchors", "A radio anchor at a surveyed place.")
       .integer("id", &Anchor::id, anything(), "The radio's own number of the anchor.")
@@ -144,6 +132,14 @@ MapFile checkedFile(const YamlDocument& document) {
   return file;
 }
 
+/// A path that starts at the folder `from`, from the folder `to`. Absolute ones and those of a package stay.
+std::filesystem::path movedPath(const std::filesystem::path& path, const std::filesystem::path& from,
+                                const std::filesystem::path& to) {
+  const std::filesystem::path target = resolvedPath(path, from, "/");
+  if (resolvedPath(path, to, "/") == target) return path;
+  return target.lexically_relative(resolvedPath(".", to, "/"));
+}
+
 pos::map::OccupancyGrid loadedGrid(const GridReference& reference, const YamlDocument& document,
                                    const std::filesystem::path& mrpt_share, const GridLoader& grid_loader) {
   const auto path = resolvedPath(reference.file, document.file.parent_path(), mrpt_share);
@@ -154,6 +150,18 @@ pos::map::OccupancyGrid loadedGrid(const GridReference& reference, const YamlDoc
 }
 
 }  // namespace
+
+OptionTable<MineGrid> mineGridOptions() {
+  return OptionTable<MineGrid>("mine_grid", "Where the map's origin sits in the mine's own grid.")
+      .text("name", &MineGrid::name, "Name of the grid and its datum.")
+      .number("easting_m", &MineGrid::easting, anything(), "Easting of the map's origin.")
+      .required()
+      .number("northing_m", &MineGrid::northing, anything(), "Northing of the map's origin.")
+      .required()
+      .number("elevation_m", &MineGrid::elevation, anything(), "Height of the map's origin.")
+      .number("rotation_deg", &MineGrid::rotation, between(-180, 180),
+              "From the grid's east counter-clockwise to the map's x axis.");
+}
 
 OptionTable<MapFile> mapOptions() {
   return OptionTable<MapFile>("Map", "Anchors and roadways of a mine, in metres, x east, y north, z up.")
@@ -217,6 +225,26 @@ MapFile parsedMap(const std::string& text, const std::filesystem::path& file) {
 
 MapFile readMapFile(const std::filesystem::path& file) {
   return checkedFile(loadYaml(file));
+}
+
+std::string checkedMapText(const MapFile& file) {
+  (void)validated(file.map);
+  const std::string text = mapText(file);
+  try {
+    (void)parsedMap(text, "map");
+  } catch (const ConfigError& error) {
+    Complaint complaint = error.complaint();
+    complaint.place = {};  // of the text, which nobody has seen
+    throw ConfigError(complaint);
+  }
+  return text;
+}
+
+MapFile moved(MapFile file, const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (file.grid) file.grid->file = movedPath(file.grid->file, from, to);
+  if (file.map.background)
+    file.map.background->file = movedPath(file.map.background->file, from, to).string();
+  return file;
 }
 
 pos::map::TunnelMap loadMap(const std::filesystem::path& file, const std::filesystem::path& mrpt_share,

@@ -1,37 +1,22 @@
-#include <array>
-#include <cstdio>
+#include <algorithm>
 #include <string>
 
-#include "pos/io/yaml_document.hpp"
+#include "json_document.hpp"
 
 namespace pos::io {
 namespace {
 
-/// Text in double quotes, escaped so that both YAML and JSON read it back.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += std::string("\\") + c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\u%04x",
-                    static_cast<unsigned>(static_cast<unsigned char>(c)));
-      out += escape.data();
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
-/// Words that read back as the same text without quotes.
+/// Words that read back as the same text without quotes, also by programs that take No, ON or Null for
+/// values.
 bool isPlainWord(const std::string& text) {
   const std::string letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
   if (text.empty() || letters.find(text[0]) == std::string::npos) return false;
   if (text.find_first_not_of(letters + "0123456789-./") != std::string::npos) return false;
-  for (const char* word : {"null", "Null", "NULL", "true", "false", "yes", "no", "on", "off", "y", "n"}) {
-    if (text == word) return false;
+  std::string lowered = text;
+  std::transform(lowered.begin(), lowered.end(), lowered.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const char* word : {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}) {
+    if (lowered == word) return false;
   }
   return true;
 }

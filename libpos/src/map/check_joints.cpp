@@ -83,18 +83,20 @@ std::vector<bool> reachedFrom(const RoadGraph& graph, const std::vector<std::siz
 /// Portals; without any, the node that reaches most.
 std::vector<std::size_t> entrances(const RoadGraph& graph) {
   std::vector<std::size_t> portals;
+  for (std::size_t n = 0; n < graph.nodes().size(); ++n) {
+    if (graph.nodes()[n].kind == GraphNode::Kind::Portal) portals.push_back(n);
+  }
+  if (!portals.empty() || graph.nodes().empty()) return portals;
   std::size_t best = 0;
   std::ptrdiff_t most = -1;
   for (std::size_t n = 0; n < graph.nodes().size(); ++n) {
-    if (graph.nodes()[n].kind == GraphNode::Kind::Portal) portals.push_back(n);
     const std::vector<bool> reached = reachedFrom(graph, {n}, Follow::Traffic);
     const auto count = std::count(reached.begin(), reached.end(), true);
     if (count <= most) continue;
     most = count;
     best = n;
   }
-  if (portals.empty() && !graph.nodes().empty()) portals.push_back(best);
-  return portals;
+  return {best};
 }
 
 }  // namespace

@@ -38,10 +38,6 @@ double neededWidth(int lanes, const VehicleSize& vehicle, const VehicleSize& mee
   return lanes == 1 ? one : one + meeting.width + rules.meeting_gap;
 }
 
-double neededWidthPrinted(const VehicleSize& vehicle, const ClearanceRules& rules) {
-  return rules.wall_gap + vehicle.width + rules.walkway + rules.meeting_gap;
-}
-
 std::vector<ClearanceRow> ClearanceReport::violations() const {
   std::vector<ClearanceRow> violated;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(violated),

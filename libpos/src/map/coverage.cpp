@@ -10,12 +10,15 @@
 namespace pos::map {
 namespace {
 
-void requirePositive(double value, const char* key) {
-  if (value > 0.0 && std::isfinite(value)) return;
+[[noreturn]] void refuse(const char* key, double got, const char* expected) {
   throw ConfigError(Complaint{.what = "coverage cannot be computed like this",
                               .key = key,
-                              .got = std::to_string(value),
-                              .expected = "> 0"});
+                              .got = std::to_string(got),
+                              .expected = expected});
+}
+
+void requirePositive(double value, const char* key) {
+  if (!(value > 0.0 && std::isfinite(value))) refuse(key, value, "> 0");
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -44,6 +47,8 @@ CoverageRules validated(CoverageRules rules) {
   requirePositive(rules.range_limit, "range_limit_m");
   requirePositive(rules.step, "step_m");
   requirePositive(rules.singular_sigma, "singular_sigma_m");
+  if (!(rules.tag_height >= 0.0 && std::isfinite(rules.tag_height)))
+    refuse("tag_height_m", rules.tag_height, ">= 0");
   return rules;
 }
 
@@ -80,6 +85,11 @@ std::vector<CoverageSample> coverage(const Network& network, RoadwayIndex roadwa
 }
 
 std::vector<CoverageSample> coverage(const Network& network, const CoverageRules& rules) {
+  if (network.map().roadways.empty()) {
+    throw ConfigError(Complaint{.what = "the map has no roadways, so there is nowhere to ask for coverage",
+                                .key = "roadways",
+                                .suggestion = "add the roadways to the map"});
+  }
   std::vector<CoverageSample> all;
   for (RoadwayIndex r = 0; r < network.map().roadways.size(); ++r) {
     const std::vector<CoverageSample> samples = coverage(network, r, rules);

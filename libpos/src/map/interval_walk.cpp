@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "pos/core/angle.hpp"
 
@@ -76,9 +77,8 @@ void Way::addNodes(const RoadGraph& graph) {
   double start = 0.0;
   for (const DrivenStretch& leg : route_.legs()) {
     const auto [low, high] = std::minmax(leg.from, leg.to);
-    for (const GraphEdge& edge : graph.edges()) {
-      if (edge.roadway != leg.roadway || edge.from <= low + kSamePlace || edge.from >= high - kSamePlace)
-        continue;
+    for (const GraphEdge& edge : graph.edgesOn(leg.roadway)) {
+      if (edge.from <= low + kSamePlace || edge.from >= high - kSamePlace) continue;
       events_.push_back({start + distanceAlong(leg, edge.from), graph.nodes()[edge.node_from].id, false});
     }
     start += leg.length();
@@ -112,7 +112,13 @@ void Way::addBends() {
 }
 
 void Way::addChambers() {
-  for (const Chamber& chamber : network_.map().chambers) {
+  std::set<std::size_t> passed;
+  for (const DrivenStretch& leg : route_.legs()) {
+    const auto& here = network_.chambersOn(leg.roadway);
+    passed.insert(here.begin(), here.end());
+  }
+  for (const std::size_t c : passed) {
+    const Chamber& chamber = network_.map().chambers[c];
     const RoadwayIndex roadway = network_.indexOf(chamber.place.roadway);
     double start = 0.0;
     for (const DrivenStretch& leg : route_.legs()) {
@@ -127,8 +133,7 @@ void Way::addChambers() {
 
 std::string Way::nameOfEnd(const RoadGraph& graph, double distance) const {
   const PlaceOnRoute place = route_.at(distance);
-  for (const GraphEdge& edge : graph.edges()) {
-    if (edge.roadway != place.roadway) continue;
+  for (const GraphEdge& edge : graph.edgesOn(place.roadway)) {
     if (std::abs(edge.from - place.chainage) < kAtNode) return graph.nodes()[edge.node_from].id;
     if (std::abs(edge.to - place.chainage) < kAtNode) return graph.nodes()[edge.node_to].id;
   }

@@ -78,9 +78,10 @@ class MapDivision {
     const GraphEdge& edge = graph_.edges()[e];
     const Roadway& roadway = network_.map().roadways[edge.roadway];
     std::vector<Mark> marks;
-    for (const Chamber& chamber : network_.map().chambers) {
+    for (const std::size_t each : network_.chambersOn(edge.roadway)) {
+      const Chamber& chamber = network_.map().chambers[each];
       const double c = chamber.place.chainage;
-      const bool counts = chamber.place.roadway == roadway.id && boundaries_.count(chamber.id) > 0 &&
+      const bool counts = boundaries_.count(chamber.id) > 0 &&
                           isForLane(roadway, chamber.side, way, network_.map().driving_side);
       if (counts && c >= edge.from && c <= edge.to) marks.push_back({c, chamber.id});
     }

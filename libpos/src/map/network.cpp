@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 
 #include "box_tree.hpp"
 #include "pos/core/edit_distance.hpp"
@@ -70,6 +71,8 @@ struct Network::Content {
   std::vector<Centreline> centrelines;
   std::vector<SegmentPlace> segments;
   std::vector<Volume> volumes;
+  std::unordered_map<std::string, RoadwayIndex> index_of;
+  std::vector<std::vector<std::size_t>> chambers_on;
   BoxTree segment_tree;
   BoxTree volume_tree;
   BoxTree anchor_tree;
@@ -92,6 +95,7 @@ Network::Content::Content(std::shared_ptr<const TunnelMap> tunnel_map) : map(std
 void Network::Content::addRoadways() {
   std::vector<Box> boxes;
   for (RoadwayIndex r = 0; r < map->roadways.size(); ++r) {
+    index_of.emplace(map->roadways[r].id, r);
     const Centreline& line = centrelines.emplace_back(map->roadways[r]);
     for (std::size_t s = 0; s < line.segments().size(); ++s) {
       segments.push_back({r, s});
@@ -99,6 +103,9 @@ void Network::Content::addRoadways() {
     }
   }
   segment_tree = BoxTree(boxes);
+  chambers_on.resize(map->roadways.size());
+  for (std::size_t c = 0; c < map->chambers.size(); ++c)
+    chambers_on[index_of.at(map->chambers[c].place.roadway)].push_back(c);
 }
 
 void Network::Content::addVolumes() {
@@ -108,10 +115,8 @@ void Network::Content::addVolumes() {
   }
   for (const Chamber& chamber : map->chambers) {
     if (chamber.length <= 0.0 || chamber.depth <= 0.0) continue;
-    for (RoadwayIndex r = 0; r < map->roadways.size(); ++r) {
-      if (map->roadways[r].id == chamber.place.roadway)
-        volumes.push_back(niche(chamber, map->roadways[r], centrelines[r]));
-    }
+    const RoadwayIndex r = index_of.at(chamber.place.roadway);
+    volumes.push_back(niche(chamber, map->roadways[r], centrelines[r]));
   }
   std::vector<Box> boxes;
   for (const Volume& volume : volumes) boxes.push_back(volume.box());
@@ -140,12 +145,14 @@ const Centreline& Network::centreline(RoadwayIndex roadway) const {
 }
 
 RoadwayIndex Network::indexOf(const std::string& roadway) const {
-  const std::vector<Roadway>& roadways = map().roadways;
-  const auto found =
-      std::find_if(roadways.begin(), roadways.end(), [&](const Roadway& r) { return r.id == roadway; });
-  if (found != roadways.end()) return static_cast<RoadwayIndex>(found - roadways.begin());
+  const auto found = content_->index_of.find(roadway);
+  if (found != content_->index_of.end()) return found->second;
   throw ConfigError(
       Complaint{.what = "there is no such roadway", .got = roadway, .suggestion = nearestId(map(), roadway)});
+}
+
+const std::vector<std::size_t>& Network::chambersOn(RoadwayIndex roadway) const {
+  return content_->chambers_on.at(roadway);
 }
 
 std::optional<Projection> Network::project(const Eigen::Vector3d& p_map) const {

@@ -38,9 +38,10 @@ std::vector<Anchor> places(const Network& network, const PlanRules& rules) {
 /// Samples of all roadways, what is known at each from the anchors chosen so far, and what each place adds.
 class Plan {
  public:
-  Plan(const Network& network, const PlanRules& rules) : rules_(rules), places_(places(network, rules)) {
+  Plan(const Network& network, const PlanRules& rules, const std::vector<CoverageSample>& samples)
+      : rules_(rules), places_(places(network, rules)) {
     const double prior = 1.0 / (rules.coverage.singular_sigma * rules.coverage.singular_sigma);
-    for (const CoverageSample& sample : coverage(network, rules.coverage)) {
+    for (const CoverageSample& sample : samples) {
       const double heading = network.centreline(sample.point.roadway).at(sample.point.chainage).heading;
       Eigen::Matrix2d J = prior * Eigen::Matrix2d::Identity();
       for (const std::size_t a : network.visibleAnchors(sample.p_map, rules.coverage.range_limit))
@@ -184,7 +185,8 @@ double AnchorPlan::anchorsPerKilometre() const {
 
 AnchorPlan plannedAnchors(const Network& network, const PlanRules& rules) {
   (void)validated(rules);
-  Plan plan(network, rules);
+  const std::vector<CoverageSample> samples = coverage(network, rules.coverage);
+  Plan plan(network, rules, samples);
   while (plan.met() < plan.neededSamples()) {
     const auto place = plan.best();
     if (!place) break;
@@ -196,7 +198,7 @@ AnchorPlan plannedAnchors(const Network& network, const PlanRules& rules) {
   with_plan.anchors.insert(with_plan.anchors.end(), added.begin(), added.end());
   const Network planned(std::make_shared<const TunnelMap>(std::move(with_plan)));
   return {.added = added,
-          .before = summary(coverage(network, rules.coverage)),
+          .before = summary(samples),
           .after = summary(coverage(planned, rules.coverage)),
           .samples_met = plan.met(),
           .samples = plan.samples(),

@@ -138,8 +138,10 @@ RoadGraph::RoadGraph(const Network& network) {
   NodePlaces places = withJunctionsAndPortals(network);
   for (RoadwayIndex r = 0; r < map.roadways.size(); ++r) {
     traffic_.push_back(map.roadways[r].traffic);
+    first_edge_.push_back(edges_.size());
     addEdges(network, r, std::move(places[r]));
   }
+  first_edge_.push_back(edges_.size());
   closed_.resize(map.roadways.size());
   for (const RestrictedZone& zone : map.zones) {
     if (zone.kind == RestrictedZone::Kind::NoEntry)
@@ -156,8 +158,10 @@ RoadGraph::NodePlaces RoadGraph::withJunctionsAndPortals(const Network& network)
   NodePlaces places(network.map().roadways.size());
   const auto add = [&](const RoadwayPlace& place) {
     const RoadwayIndex r = network.indexOf(place.roadway);
-    places[r].push_back({place.chainage, nodes_.size()});
-    return network.centreline(r).at(place.chainage).p_map;
+    const Centreline& line = network.centreline(r);
+    const double chainage = std::clamp(place.chainage, line.chainageStart(), line.chainageEnd());
+    places[r].push_back({chainage, nodes_.size()});
+    return line.at(chainage).p_map;
   };
   for (const Junction& junction : network.map().junctions) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -193,9 +197,14 @@ void RoadGraph::addEdges(const Network& network, RoadwayIndex roadway, std::vect
   }
 }
 
+std::span<const GraphEdge> RoadGraph::edgesOn(RoadwayIndex roadway) const {
+  const std::size_t first = first_edge_[roadway];
+  return std::span(edges_).subspan(first, first_edge_[roadway + 1] - first);
+}
+
 std::optional<std::size_t> RoadGraph::edgeAt(RoadwayIndex roadway, double chainage) const {
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    if (edges_[e].roadway == roadway && edges_[e].from <= chainage && chainage <= edges_[e].to) return e;
+  for (std::size_t e = first_edge_[roadway]; e < first_edge_[roadway + 1]; ++e) {
+    if (edges_[e].from <= chainage && chainage <= edges_[e].to) return e;
   }
   return std::nullopt;
 }

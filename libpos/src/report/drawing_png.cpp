@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -38,27 +39,52 @@ std::string asciiOnly(const std::string& text) {
   return plain;
 }
 
-/// The parts of a line that a dash pattern leaves.
-std::vector<std::vector<Pixel>> dashed(const std::vector<Pixel>& line, const std::vector<double>& dash) {
+/// Stretch of the line from `a` to `b` inside the box, as shares of its length; end < begin where there is
+/// none.
+struct Seen {
+  double begin = 0.0;
+  double end = 1.0;
+};
+Seen seenPart(const Pixel& a, const Pixel& b, const Box& box) {
+  Seen seen;
+  const auto clip = [&seen](double from, double step, double low, double high) {
+    if (step == 0.0) {
+      if (from < low || from > high) seen.end = -1.0;
+      return;
+    }
+    seen.begin = std::max(seen.begin, std::min((low - from) / step, (high - from) / step));
+    seen.end = std::min(seen.end, std::max((low - from) / step, (high - from) / step));
+  };
+  clip(a.x, b.x - a.x, box.left, box.right());
+  clip(a.y, b.y - a.y, box.top, box.bottom());
+  return seen;
+}
+
+/// The parts of a line that a dash pattern leaves inside the box; a typing mistake in a map may draw a line a
+/// million sheets long.
+std::vector<std::vector<Pixel>> dashed(const std::vector<Pixel>& line, const std::vector<double>& dash,
+                                       const Box& box) {
   if (dash.empty()) return {line};
+  const double period = std::accumulate(dash.begin(), dash.end(), 0.0);
   std::vector<std::vector<Pixel>> parts;
-  std::size_t at = 0;
-  double left = dash.front();
+  double behind = 0.0;  // length of the segments drawn so far
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double length = std::hypot(line[i + 1].x - line[i].x, line[i + 1].y - line[i].y);
+    const Pixel& a = line[i];
+    const Pixel& b = line[i + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const Seen seen = seenPart(a, b, box);
     const auto point = [&](double s) {
-      const double f = length > 0.0 ? s / length : 0.0;
-      return Pixel{line[i].x + f * (line[i + 1].x - line[i].x), line[i].y + f * (line[i + 1].y - line[i].y)};
+      return Pixel{a.x + s / length * (b.x - a.x), a.y + s / length * (b.y - a.y)};
     };
-    for (double s = 0.0; s < length;) {
-      const double step = std::min(std::max(left, 0.1), length - s);
+    for (double s = seen.begin * length; s < seen.end * length;) {
+      double left = std::fmod(behind + s, period);
+      std::size_t at = 0;
+      while (at + 1 < dash.size() && left >= dash[at]) left -= dash[at++];
+      const double step = std::min(std::max(dash[at] - left, 0.1), seen.end * length - s);
       if (at % 2 == 0) parts.push_back({point(s), point(s + step)});
       s += step;
-      left -= step;
-      if (left > 1e-9) continue;
-      at = (at + 1) % dash.size();
-      left = dash[at];
     }
+    behind += length;
   }
   return parts;
 }
@@ -172,7 +198,10 @@ class Painter {
   }
   void stroke(const std::vector<Pixel>& line, const Paint& paint) {
     if (paint.stroke.empty()) return;
-    for (const auto& part : dashed(line, paint.dash)) {
+    const double margin = paint.stroke_width;
+    const Box sheet{-margin, -margin, canvas_.cols / scale_ + 2.0 * margin,
+                    canvas_.rows / scale_ + 2.0 * margin};
+    for (const auto& part : dashed(line, paint.dash, sheet)) {
       cv::polylines(canvas_, std::vector<std::vector<cv::Point>>{fixedPoint(part)}, false,
                     colourOf(paint.stroke), thickness(paint), cv::LINE_AA, kShift);
     }

@@ -22,6 +22,7 @@ Box around(const Pixel& p, double half) {
 void drawChamber(Sheet& sheet, const map::Chamber& chamber) {
   const auto i = sheet.shownIndex(chamber.place.roadway);
   if (!i) return;
+  ++sheet.chambers_drawn;
   const bool refuge = chamber.kind == map::Chamber::Kind::Refuge;
   const double least = 6.0 * sheet.metres_per_pixel;
   const double half = sheet.halfWidth(*i);
@@ -62,6 +63,7 @@ void drawAnchor(Sheet& sheet, const map::Anchor& anchor) {
     if (!sheet.shown[i]) outward = {0.0, 0.0};
   }
   if (outward.x == 0.0 && outward.y == 0.0) return;  // it belongs to another level
+  ++sheet.anchors_drawn;
   const double r = 4.6;
   sheet.drawing.add(DrawnPolygon{{{at.x, at.y - r}, {at.x + r, at.y + 0.8 * r}, {at.x - r, at.y + 0.8 * r}},
                                  {.fill = "#1f5fbf", .stroke = "#ffffff", .stroke_width = 0.9}});

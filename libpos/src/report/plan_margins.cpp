@@ -69,6 +69,16 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+/// Those with a stretch on a roadway that is shown.
+std::size_t intervalsDrawn(const Sheet& sheet) {
+  const auto& intervals = sheet.options.intervals;
+  return static_cast<std::size_t>(
+      std::count_if(intervals.begin(), intervals.end(), [&](const map::LockInterval& interval) {
+        return std::any_of(interval.spans.begin(), interval.spans.end(),
+                           [&](const map::IntervalSpan& span) { return sheet.shown[span.roadway]; });
+      }));
+}
+
 std::string subtitle(const Sheet& sheet) {
   const map::TunnelMap& map = sheet.map;
   double length = 0.0;
@@ -81,14 +91,14 @@ std::string subtitle(const Sheet& sheet) {
   std::string text = counted(roadways, "roadway", "roadways") + ", " +
                      (length >= 2000.0 ? rounded(length / 1000.0) + " km" : rounded(length) + " m");
   if (!sheet.options.level.empty()) text += " on level " + sheet.options.level;
-  if (!map.chambers.empty()) text += ", " + counted(map.chambers.size(), "chamber", "chambers");
-  if (!map.anchors.empty()) text += ", " + counted(map.anchors.size(), "anchor", "anchors");
-  if (!sheet.options.intervals.empty())
-    text += ", " + counted(sheet.options.intervals.size(), "lock interval", "lock intervals");
+  if (sheet.chambers_drawn > 0) text += ", " + counted(sheet.chambers_drawn, "chamber", "chambers");
+  if (sheet.anchors_drawn > 0) text += ", " + counted(sheet.anchors_drawn, "anchor", "anchors");
+  if (const std::size_t drawn = intervalsDrawn(sheet); drawn > 0)
+    text += ", " + counted(drawn, "lock interval", "lock intervals");
   text += "; coordinates in m in the map frame";
   if (map.mine_grid && !map.mine_grid->name.empty())
     text += ", its origin at E " + fixed(map.mine_grid->easting, 3) + " N " +
-            fixed(map.mine_grid->northing, 3) + " of " + map.mine_grid->name;
+            fixed(map.mine_grid->northing, 3) + " (" + map.mine_grid->name + ")";
   return text;
 }
 

@@ -58,6 +58,8 @@ class Sheet {
   Box frame;  ///< of the plan, px
   double metres_per_pixel = 1.0;
   std::size_t labels_left_out = 0;
+  std::size_t chambers_drawn = 0;
+  std::size_t anchors_drawn = 0;
   bool widened = false;
 
   Pixel pixel(const Eigen::Vector2d& p_map) const;

@@ -232,6 +232,38 @@ TEST(MapFiles, WhatAMapCannotBeIsRefusedAtItsLine) {
       "anchor has a survey date that is none");
 }
 
+TEST(MapFiles, PathsFollowTheMapIntoAnotherFolder) {
+  const MapFile file{.map = {.name = "m", .background = map::BackgroundImage{.file = "scans/plan.png"}},
+                     .grid = GridReference{"cells.gridmap.gz", {}}};
+  const MapFile there = moved(file, "/site/maps", "/site/out/new");
+  EXPECT_EQ(there.grid->file, "../../maps/cells.gridmap.gz");
+  EXPECT_EQ(there.map.background->file, "../../maps/scans/plan.png");
+  EXPECT_EQ(moved(there, "/site/out/new", "/site/maps"), file);
+  EXPECT_EQ(moved(file, "", "."), file) << "one folder by two names";
+  for (const char* fixed : {"/abs/cells.gridmap.gz", "mrpt-common:datasets/cells.gridmap.gz"}) {
+    const MapFile same{.map = {.name = "m"}, .grid = GridReference{fixed, {}}};
+    EXPECT_EQ(moved(same, "/site/maps", "/elsewhere"), same);
+  }
+}
+
+TEST(MapFiles, WhatCouldNotBeReadBackIsNotWritten) {
+  MapFile file{.map = {.name = "m"}, .grid = {}};
+  map::Roadway roadway;
+  roadway.id = "No";
+  roadway.centreline = {{.p_map = {0, 0, 0}}, {.p_map = {10, 0, 0}}};
+  file.map.roadways = {roadway};
+  EXPECT_THAT(checkedMapText(file), HasSubstr("id: \"No\""))
+      << "a word that other YAML readers take for false";
+  file.map.roadways[0].width = 0.3;
+  try {
+    (void)checkedMapText(file);
+    FAIL() << "map files have no roadway 0.3 m wide";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.complaint().key, "roadways[0].width_m");
+    EXPECT_EQ(error.complaint().place.line, 0);
+  }
+}
+
 TEST(MapDiff, EqualMapsDifferInNothing) {
   const MapFile file = parsedMap(kEverything, "a.yaml");
   EXPECT_TRUE(mapChanges(file, file).empty());

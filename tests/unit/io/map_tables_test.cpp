@@ -10,6 +10,7 @@
 namespace pos::io {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr const char* kMapping = R"(name: north
@@ -95,7 +96,23 @@ TEST(MapTables, ARoadwayOfOneStationIsRefused) {
   folder.write("anchors.csv", kAnchors);
   EXPECT_THAT(
       complaintOf<ConfigError>([&] { mapFromTables(parseTableMapping(kMapping, "m.yaml"), folder.path()); }),
-      HasSubstr("roadway C"));
+      AllOf(HasSubstr("roadway C"), HasSubstr("stations.csv:7:1")));
+}
+
+TEST(MapTables, WhatMapFilesRefuseIsToldWithItsRow) {
+  const ScratchFolder folder;
+  const auto refused = [&](const std::string& stations, const std::string& anchors) {
+    folder.write("stations.csv", stations);
+    folder.write("anchors.csv", anchors);
+    return complaintOf<ConfigError>(
+        [&] { mapFromTables(parseTableMapping(kMapping, "m.yaml"), folder.path()); });
+  };
+  EXPECT_THAT(refused(std::string(kStations) + "B,388050,4512040,79950,,\n", kAnchors),
+              AllOf(HasSubstr("two points at the same place"), HasSubstr("stations.csv:7:1")));
+  EXPECT_THAT(refused(kStations, std::string(kAnchors) + "8,388020,4512002,801.5,20\n7,1,2,3,4\n"),
+              AllOf(HasSubstr("two anchors have the same id"), HasSubstr("anchors.csv:4:1")));
+  EXPECT_THAT(refused(kStations, std::string(kAnchors) + "8,388020,4512002,801.5,2e6\n"),
+              AllOf(HasSubstr("survey_sigma_m"), HasSubstr("anchors.csv:3:1")));
 }
 
 }  // namespace

@@ -23,7 +23,9 @@ Roadway section(double width, double height, int lanes) {
 TEST(Clearance, NeededWidthsAreThoseOfThePaper) {
   EXPECT_NEAR(neededWidth(2, kVehicle, kVehicle, {}), 3.790, 1e-12);
   EXPECT_NEAR(neededWidth(1, kVehicle, kVehicle, {}), 2.345, 1e-12);
-  EXPECT_NEAR(neededWidthPrinted(kVehicle, {}), 2.545, 1e-12);
+  // Printed for one lane is 2.545 m: it adds t, although nobody is met.
+  const ClearanceRules rules;
+  EXPECT_NEAR(neededWidth(1, kVehicle, kVehicle, rules) + rules.meeting_gap, 2.545, 1e-12);
 }
 
 TEST(Clearance, ThePapersOwnRoadwaysAreTooNarrow) {

@@ -238,6 +238,13 @@ TEST(PlanAnchors, AnchorsAlreadyThereAreUsed) {
   EXPECT_TRUE(again.added.empty());
 }
 
+TEST(Coverage, AMapWithoutRoadwaysHasNoCoverageToTell) {
+  TunnelMap map{.name = "anchors only"};
+  map.anchors = {{.id = 1, .p_map = {0, 0, 2}}, {.id = 2, .p_map = {10, 0, 2}}};
+  EXPECT_THROW((void)coverage(networkOf(map), {}), ConfigError);
+  EXPECT_THROW((void)plannedAnchors(networkOf(map), {}), ConfigError);
+}
+
 TEST(PlanAnchors, BadRulesAreRefused) {
   EXPECT_THROW(validated(PlanRules{.along = 0.0}), ConfigError);
   EXPECT_THROW(validated(PlanRules{.met_share = 1.5}), ConfigError);

@@ -251,6 +251,18 @@ TEST(Network, ChamberIsOpenSpace) {
   EXPECT_TRUE(network.inSight({50, 4.5, 1}, {52, -1, 1}));
 }
 
+TEST(Network, ChambersAreListedByRoadwayInMapOrder) {
+  TunnelMap map{.name = "three chambers"};
+  map.roadways = {straightRoadway("A", {0, 0, 0}, {100, 0, 0}),
+                  straightRoadway("B", {0, 50, 0}, {100, 50, 0})};
+  map.chambers = {{.id = "C1", .place = {"B", 80.0}},
+                  {.id = "C2", .place = {"A", 10.0}},
+                  {.id = "C3", .place = {"B", 20.0}}};
+  const Network network = networkOf(map);
+  EXPECT_EQ(network.chambersOn(0), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(network.chambersOn(1), (std::vector<std::size_t>{0, 2}));
+}
+
 TEST(Network, VisibleAnchorsAreThoseInRangeAndInSight) {
   TunnelMap map = bridge();
   for (int i = -5; i <= 5; ++i) {

@@ -95,6 +95,20 @@ TEST(RoadGraph, JunctionsPortalsAndOpenEndsAreNodes) {
   EXPECT_EQ(graph.edgesOf(0).size(), 3U);
 }
 
+TEST(RoadGraph, AJunctionPastARoadwaysEndStandsAtThatEnd) {
+  TunnelMap map{.name = "typing mistakes"};
+  map.roadways = {straightRoadway("A", {0, 0, 0}, {100, 0, 0}),
+                  straightRoadway("B", {100, 0, 0}, {100, 50, 0})};
+  map.junctions = {{.id = "J", .places = {{"A", 6000.0}, {"B", -20.0}}}};
+  const RoadGraph graph(networkOf(map));
+  ASSERT_EQ(graph.edges().size(), 2U);
+  for (const GraphEdge& edge : graph.edges()) EXPECT_LT(edge.from, edge.to);
+  EXPECT_EQ(graph.edges()[0].to, 100.0);
+  EXPECT_EQ(graph.nodes()[graph.edges()[0].node_to].id, "J");
+  EXPECT_EQ(graph.edgesOn(1).size(), 1U);
+  EXPECT_EQ(graph.edgesOn(1)[0].node_from, graph.edges()[0].node_to);
+}
+
 TEST(RoadGraph, ShortestRouteAgreesWithExhaustion) {
   int found = 0;
   int none = 0;

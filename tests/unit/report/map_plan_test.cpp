@@ -145,6 +145,11 @@ TEST(MapPlan, OneLevelShowsOnlyItsRoadways) {
   EXPECT_FALSE(texts(plan.drawing, "R3").empty());
   EXPECT_TRUE(texts(plan.drawing, "R2").empty());
   EXPECT_TRUE(texts(plan.drawing, "C1").empty());
+  std::vector<DrawnText> subtitles = all<DrawnText>(plan.drawing);
+  std::erase_if(subtitles,
+                [](const DrawnText& text) { return text.text.find("on level lower") == text.text.npos; });
+  ASSERT_EQ(subtitles.size(), 1U);
+  EXPECT_EQ(subtitles[0].text.find("chamber"), std::string::npos) << "those of another level do not count";
   EXPECT_THROW(mapPlan(mine, {.level = "middle"}), ConfigError);
   EXPECT_THROW(mapPlan(map::TunnelMap{}, {}), ConfigError);
   EXPECT_THROW(mapPlan(mine, {.width = 20.0}), ConfigError);
@@ -178,6 +183,16 @@ TEST(MapPlan, TheSamePlanGivesTheSameBytesAndAPngOfItsSize) {
   EXPECT_NEAR(word(16), 0.5 * plan.drawing.width, 1.0);
   EXPECT_NEAR(word(20), 0.5 * plan.drawing.height, 1.0);
   EXPECT_THROW(drawingPng({.width = 1e6, .height = 1e6}), ConfigError);
+}
+
+TEST(MapPlan, ADashedLineAMillionSheetsLongIsDrawnAsItsPartOnTheSheet) {
+  const auto png = [](double from, double to) {
+    Drawing drawing{.width = 100, .height = 20};
+    drawing.add(DrawnLine{{{from, 10.0}, {to, 10.0}}, {.stroke = "#000000", .dash = {6.0, 3.0}}});
+    return drawingPng(drawing);
+  };
+  EXPECT_EQ(png(-1e9, 1e9), png(-1.0, 200.0)) << "1e9 = 1 modulo 9, the dashes' period";
+  EXPECT_NE(png(-1e9, 1e9), png(-2.0, 200.0));
 }
 
 TEST(MapPlan, RandomMapsCanBeDrawn) {

@@ -61,7 +61,8 @@ struct TableMap {
   std::size_t stations = 0;  ///< rows read
 };
 /// Reads the tables in `data_dir`. Throws DataError naming file, line and column of a bad cell, ConfigError
-/// for a map that cannot be (a roadway of one station, coordinates of a mine grid that is not named).
+/// for a map that cannot be (coordinates of a mine grid that is not named; with file and line of the row: a
+/// roadway of one station, an anchor given twice, a width that map files refuse).
 TableMap mapFromTables(const TableMapImport& mapping, const std::filesystem::path& data_dir);
 
 }  // namespace pos::io

@@ -44,6 +44,14 @@ MapFile readMapFile(const std::filesystem::path& file);
 /// lists, numbers as short as they read back the same. Reading it and writing it again gives the same bytes.
 std::string mapText(const MapFile& file);
 
+/// The same for a map that was not read from a map file. Throws ConfigError (key as in the file, no place)
+/// for what could not be read back: values that a map can hold and the format refuses, a roadway 0.3 m wide.
+std::string checkedMapText(const MapFile& file);
+
+/// The file for another folder: paths in it that start at the folder `from` (of the grid, of the background)
+/// start at `to`.
+MapFile moved(MapFile file, const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Reads the cells of a grid (grid_io.hpp has one for each format).
 using GridLoader = std::function<map::OccupancyGrid(const std::filesystem::path&)>;
 

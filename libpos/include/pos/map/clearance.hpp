@@ -27,8 +27,6 @@ ClearanceRules validated(ClearanceRules rules);
 /// Needed width, m. Two lanes: B2 = a + A1 + A2 + C + t. One lane: B1 = a + A1 + C.
 double neededWidth(int lanes, const VehicleSize& vehicle, const VehicleSize& meeting,
                    const ClearanceRules& rules);
-/// The paper's printed single-lane rule, which adds t although nobody is met. For comparison only.
-double neededWidthPrinted(const VehicleSize& vehicle, const ClearanceRules& rules);
 
 /// One rule applied to one roadway.
 struct ClearanceRow {

@@ -31,7 +31,8 @@ struct CoverageSample {
 CoverageSample bound(const Eigen::Vector3d& p_map, double heading, const std::vector<Anchor>& anchors,
                      const CoverageRules& rules);
 
-/// Samples at the middle of every step of every roadway, in map order.
+/// Samples at the middle of every step of every roadway, in map order. Throws ConfigError for a map without
+/// roadways: no samples would read as perfect coverage.
 std::vector<CoverageSample> coverage(const Network& network, const CoverageRules& rules);
 /// The same for one roadway.
 std::vector<CoverageSample> coverage(const Network& network, RoadwayIndex roadway,

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "pos/map/centreline.hpp"
@@ -29,6 +28,8 @@ class Network {
   const Centreline& centreline(RoadwayIndex roadway) const;
   /// The roadway with this id; throws ConfigError with a suggestion when there is none.
   RoadwayIndex indexOf(const std::string& roadway) const;
+  /// Indices into map().chambers of the chambers on this roadway, in map order.
+  const std::vector<std::size_t>& chambersOn(RoadwayIndex roadway) const;
 
   /// The roadway whose cross-section is nearest, so that levels are told apart by height; among several that
   /// hold the point, the one whose centreline is nearest in space. Nothing for a map without roadways.

@@ -28,6 +28,7 @@ struct AnchorPlan {
   double anchorsPerKilometre() const;
 };
 /// Keeps the anchors of the map, adds greedily where most is gained, then takes away what is not needed.
+/// Throws ConfigError for a map without roadways.
 AnchorPlan plannedAnchors(const Network& network, const PlanRules& rules);
 
 }  // namespace pos::map

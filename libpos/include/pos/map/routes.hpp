@@ -2,6 +2,7 @@
 /// Driving along roadways: the graph of junctions, shortest ways, and distance along a route.
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pos/map/network.hpp"
@@ -63,12 +64,16 @@ struct GraphEdge {
   std::size_t node_to = 0;
 };
 
+/// A junction or portal that the map puts past the end of a roadway stands at that end here; `findings`
+/// reports it.
 class RoadGraph {
  public:
   explicit RoadGraph(const Network& network);
 
   const std::vector<GraphNode>& nodes() const { return nodes_; }
   const std::vector<GraphEdge>& edges() const { return edges_; }
+  /// Edges of one roadway in the order of chainage.
+  std::span<const GraphEdge> edgesOn(RoadwayIndex roadway) const;
   /// Edges that touch a node.
   const std::vector<std::size_t>& edgesOf(std::size_t node) const { return edges_of_[node]; }
   /// The edge that holds the place; nothing off the roadway's ends.
@@ -91,8 +96,9 @@ class RoadGraph {
   void addEdges(const Network& network, RoadwayIndex roadway, std::vector<NodePlace> places);
 
   std::vector<GraphNode> nodes_;
-  std::vector<GraphEdge> edges_;
-  std::vector<std::vector<std::size_t>> edges_of_;
+  std::vector<GraphEdge> edges_;                     ///< roadway after roadway
+  std::vector<std::size_t> first_edge_;              ///< of each roadway, and one past the last
+  std::vector<std::vector<std::size_t>> edges_of_;   ///< of each node
   std::vector<Traffic> traffic_;                     ///< of each roadway
   std::vector<std::vector<RoadwayStretch>> closed_;  ///< of each roadway
 };
