@@ -48,7 +48,8 @@ map::TunnelMap starterMap() {
 Json infoOf(const map::TunnelMap& tunnel_map) {
   const map::Network network(std::make_shared<const map::TunnelMap>(tunnel_map));
   const map::RoadGraph graph(network);
-  Json json{{"name", tunnel_map.name}};
+  Json json;
+  json["name"] = tunnel_map.name;
   double total = 0.0;
   json["roadways"] = Json::array();
   for (map::RoadwayIndex r = 0; r < tunnel_map.roadways.size(); ++r) {

@@ -120,7 +120,7 @@ std::string runJson(const Site& site, const Options& options, const io::RunFolde
            {"git", gitHash()},
            {"seed", options.seed},
            {"truth_rate_hz", options.truth_rate}};
-  run["inputs"] = {fileEntry("scenario", options.scenario)};
+  run["inputs"] = Json::array({fileEntry("scenario", options.scenario)});
   if (site.scenario.map) run["inputs"].push_back(fileEntry("map", *site.scenario.map));
   run["outputs"] = {{{"file", "log.rawlog"}, {"sha256", io::sha256OfFile(folder.log())}},
                     {{"file", "truth.tum"}, {"sha256", io::sha256OfFile(folder.truth())}}};

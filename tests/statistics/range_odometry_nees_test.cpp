@@ -25,7 +25,7 @@ RangeOdometryConfig matchedConfig(const SmallRunOptions& options, std::uint64_t 
   config.start.position_sigma = 0.2;
   config.start.yaw_sigma = 0.1;
   config.acceleration_density = 0.1;
-  const Vector<3> error(random.normal(0.0, 0.2), random.normal(0.0, 0.2), random.normal(0.0, 0.1));
+  const Vector<3> error = normals(random).cwiseProduct(Vector<3>(0.2, 0.2, 0.1));
   config.start.pose = plus(truthAt(0.0), error);
   return config;
 }

@@ -52,4 +52,10 @@ double RandomStream::normal() {
   return radius * std::cos(angle);
 }
 
+Eigen::Vector3d normals(RandomStream& random) {
+  const double x = random.normal();
+  const double y = random.normal();
+  return {x, y, random.normal()};
+}
+
 }  // namespace pos

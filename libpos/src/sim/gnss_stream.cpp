@@ -51,8 +51,7 @@ std::optional<std::size_t> GnssStream::zoneAt(double t, const Eigen::Vector3d& p
 void GnssStream::advanceError(double t) {
   const bool white = !error_t_ || config_.correlation_time == 0.0;
   const double kept = white ? 0.0 : std::exp(-(t - *error_t_) / config_.correlation_time);
-  const Eigen::Vector3d fresh(noise_.normal(), noise_.normal(), noise_.normal());
-  error_ = kept * error_ + std::sqrt(1.0 - kept * kept) * fresh;
+  error_ = kept * error_ + std::sqrt(1.0 - kept * kept) * normals(noise_);
   error_t_ = t;
 }
 

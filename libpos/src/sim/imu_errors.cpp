@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kGravity = 9.80665;  // m/s^2 of the data sheets' g
 
-Eigen::Vector3d normals(RandomStream& random) {
-  const double x = random.normal();
-  const double y = random.normal();
-  return {x, y, random.normal()};
-}
-
 /// I + small angles between the axes, times I + scale.
 Eigen::Matrix3d gainMatrix(const TriadErrors& errors, RandomStream& random) {
   Eigen::Matrix3d tilts = Eigen::Matrix3d::Identity();

@@ -49,8 +49,7 @@ std::vector<map::Anchor> displaced(std::vector<map::Anchor> anchors, const UwbCo
                                    const RunSetup& run) {
   std::vector<RandomStream> random = streams(kSurvey, anchors.size(), config, run);
   for (std::size_t i = 0; i < anchors.size(); ++i) {
-    const Eigen::Vector3d unit(random[i].normal(), random[i].normal(), random[i].normal());
-    anchors[i].p_map += config.survey_error * anchors[i].survey_sigma * unit;
+    anchors[i].p_map += config.survey_error * anchors[i].survey_sigma * normals(random[i]);
   }
   return anchors;
 }

@@ -56,7 +56,7 @@ TEST(PerformanceTable, MachineIsToldWithoutItsName) {
 
 TEST(PerformanceTable, RunsOfSeveralProgramsAreJoinedInOrder) {
   nlohmann::json other = sample();
-  other["benchmarks"] = {entry("third", "median", 1.0, 1.0)};
+  other["benchmarks"] = nlohmann::json::array({entry("third", "median", 1.0, 1.0)});
   const nlohmann::json run = joined({sample(), other});
   ASSERT_EQ(run.at("benchmarks").size(), 5U);
   EXPECT_EQ(run.at("benchmarks").back().at("run_name"), "third");

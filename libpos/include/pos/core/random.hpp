@@ -2,6 +2,7 @@
 /// Counter-based random numbers: value i of stream s under seed k is a pure function of (k, s, i), so results
 /// do not depend on the order or the number of threads that asked.
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -40,5 +41,9 @@ class RandomStream {
   double spare_normal_ = 0.0;
   bool has_spare_ = false;
 };
+
+/// Three independent standard normals, drawn in the order x, y, z whatever the compiler: the order in which
+/// the arguments of a call are evaluated is open, so draws never stand side by side in one.
+Eigen::Vector3d normals(RandomStream& random);
 
 }  // namespace pos
