@@ -1,5 +1,6 @@
 #include "pos/io/run_config.hpp"
 
+#include "pos/core/config_checks.hpp"
 #include "pos/io/files.hpp"
 #include "pos/io/overrides.hpp"
 #include "pos/io/text.hpp"
@@ -9,16 +10,6 @@ namespace {
 
 using Align = EvaluationConfig::Align;
 using Format = TruthSource::Format;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
-                         const std::string& expected, const std::string& suggestion = "") {
-  throw ConfigError(
-      Complaint{.what = what, .key = key, .got = got, .expected = expected, .suggestion = suggestion});
-}
-
-std::string indexed(const std::string& list, std::size_t i, const std::string& key) {
-  return list + "[" + std::to_string(i) + "]." + key;
-}
 
 bool fitsFileName(const std::string& name) {
   return !name.empty() && name.find_first_not_of(
@@ -33,7 +24,7 @@ void requireUniqueEstimators(const std::vector<EstimatorEntry>& estimators) {
   }
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const std::string& name = estimators[i].name;
-    const std::string key = indexed("estimators", i, "name");
+    const std::string key = indexed("estimators", i) + ".name";
     if (!fitsFileName(name)) {
       refuse("the name does not fit a file name", key, name, "letters, digits, _ and - only");
     }
@@ -49,7 +40,7 @@ void requireUniqueSensors(const std::vector<SensorConfig>& sensors) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (sensors[j].sensor != sensors[i].sensor) continue;
-      refuse("a sensor is listed twice", indexed("sensors", i, "sensor"), sensors[i].sensor,
+      refuse("a sensor is listed twice", indexed("sensors", i) + ".sensor", sensors[i].sensor,
              "every sensor once", "sensors[" + std::to_string(j) + "] names it already; join the two");
     }
   }
@@ -70,18 +61,6 @@ void requireOrder(const FaultConfig& faults) {
     refuse("the smallest outlier exceeds the largest", "range_outlier_min_m",
            std::to_string(faults.range_outlier_min),
            "at most range_outlier_max_m = " + std::to_string(faults.range_outlier_max));
-  }
-}
-
-/// Runs a rule of an inner table, so that its complaint names the whole key.
-template <class Rule>
-void withKeyPrefix(const std::string& prefix, Rule rule) {
-  try {
-    rule();
-  } catch (const ConfigError& error) {
-    Complaint complaint = error.complaint();
-    complaint.key = joinedPath(prefix, complaint.key);
-    throw ConfigError(complaint);
   }
 }
 
@@ -241,11 +220,10 @@ RunConfig validated(RunConfig config) {
   requireUniqueSensors(config.sensors);
   requireOneInput(config);
   requireKnownBaseline(config);
-  if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
-  withKeyPrefix("faults", [&] { requireOrder(config.faults); });
+  if (config.truth) under("truth", [&] { requireTruthFile(*config.truth); });
+  under("faults", [&] { requireOrder(config.faults); });
   for (std::size_t i = 0; i < config.estimators.size(); ++i) {
-    withKeyPrefix("estimators[" + std::to_string(i) + "]",
-                  [&] { (void)validated(config.estimators[i].config); });
+    under(indexed("estimators", i), [&] { (void)validated(config.estimators[i].config); });
   }
   return config;
 }

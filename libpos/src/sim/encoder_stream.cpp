@@ -1,8 +1,8 @@
 #include <array>
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/encoder.hpp"
 
 namespace pos::sim {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {

@@ -1,5 +1,5 @@
-#include "complaints.hpp"
 #include "imu_errors.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/imu.hpp"
 
 namespace pos::sim {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
@@ -36,8 +36,8 @@ PassageConfig validated(PassageConfig config) {
   requireNotNegative(config.sigma, key + ".sigma", "m");
   requireNotNegative(config.sigma_time, key + ".sigma_time", "s");
   requireNotNegative(config.sigma_across, key + ".sigma_across", "m");
-  requireProbability(config.missed_probability, key + ".missed_probability");
-  requireProbability(config.wrong_probability, key + ".wrong_probability");
+  requireShare(config.missed_probability, key + ".missed_probability");
+  requireShare(config.wrong_probability, key + ".wrong_probability");
   require(config.wrong_probability == 0.0 || config.places.size() > 1, key + ".wrong_probability",
           "0 with a single place: there is no other to mistake it for");
   return config;

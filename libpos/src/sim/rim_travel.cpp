@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/encoder.hpp"
 #include "quadrature.hpp"
 
@@ -100,8 +100,7 @@ EncoderModel validated(const EncoderModel& model) {
   requireNotNegative(model.distance_noise, "distance_noise");
   requireNotNegative(model.speed_sigma, "speed_sigma");
   requireNotNegative(model.yaw_sigma, "yaw_sigma");
-  for (std::size_t i = 0; i < model.slips.size(); ++i)
-    requireUsable(model.slips[i], "slips[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < model.slips.size(); ++i) requireUsable(model.slips[i], indexed("slips", i));
   requireApart(model.slips);
   return model;
 }

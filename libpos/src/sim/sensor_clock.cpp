@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "complaints.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 
@@ -16,8 +16,8 @@ SensorTiming validated(const SensorTiming& timing) {
   for (std::size_t i = 0; i < timing.outages.size(); ++i) {
     const TimeWindow& outage = timing.outages[i];
     if (!(outage.from < outage.to)) {
-      refuse("the outage ends before it begins", "outages[" + std::to_string(i) + "]",
-             std::to_string(outage.to), "more than " + std::to_string(outage.from) + " s");
+      refuse("the outage ends before it begins", indexed("outages", i), std::to_string(outage.to),
+             "more than " + std::to_string(outage.from) + " s");
     }
   }
   return timing;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pos/core/error.hpp"
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
@@ -15,6 +14,12 @@ enum Purpose : std::uint32_t { kJitter = 0, kDrops = 1, kLatency = 2 };
 
 }  // namespace
 
+void requireSpan(const TimeSpan& span, const std::string& key) {
+  if (span.from < span.to) return;
+  refuse("the span ends before it begins", key, std::to_string(span.from) + " to " + std::to_string(span.to),
+         "a span that ends after it begins, s");
+}
+
 Timing validated(Timing timing, const std::string& key) {
   requirePositive(timing.rate, key + ".rate", "Hz");
   requireNotNegative(timing.phase, key + ".phase", "s");
@@ -22,7 +27,7 @@ Timing validated(Timing timing, const std::string& key) {
   requireNotNegative(timing.latency, key + ".latency", "s");
   requireNotNegative(timing.latency_jitter, key + ".latency_jitter", "s");
   requireFinite(timing.stamp_error, key + ".stamp_error", "s");
-  requireProbability(timing.drop_probability, key + ".drop_probability");
+  requireShare(timing.drop_probability, key + ".drop_probability");
   for (const TimeSpan& outage : timing.outages) requireSpan(outage, key + ".outages");
   return timing;
 }

@@ -1,6 +1,6 @@
 #include <set>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/uwb_stream.hpp"
 
 namespace pos::sim {

@@ -21,6 +21,9 @@ struct TimeSpan {
   bool contains(double t) const { return from <= t && t < to; }
 };
 
+/// Throws ConfigError naming `key` unless the span ends after it begins.
+void requireSpan(const TimeSpan& span, const std::string& key);
+
 /// What all sensors of one run share.
 struct RunSetup {
   Stamp start = {};        ///< stamp of the scenario's time 0
