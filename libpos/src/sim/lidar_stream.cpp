@@ -9,7 +9,7 @@
 namespace pos::sim {
 
 LidarConfig validated(LidarConfig config) {
-  (void)validated(config.timing, config.sensor + ".timing");
+  requireValid(config.timing, config.sensor + ".timing");
   (void)validated(config.scanner, config.sensor + ".scanner");
   require(config.rock_from >= 1 && config.rock_from <= 100, config.sensor + ".rock_from", "1 to 100 percent");
   return config;

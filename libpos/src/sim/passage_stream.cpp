@@ -23,7 +23,7 @@ Eigen::Vector3d wayOf(const Kinematics& body) {
 
 PassageConfig validated(PassageConfig config) {
   const std::string& key = config.sensor;
-  (void)validated(config.timing, key + ".timing");
+  requireValid(config.timing, key + ".timing");
   require(config.antenna_body.allFinite(), key + ".antenna_body", "three numbers, m");
   require(!config.places.empty(), key + ".places", "at least one place");
   std::set<std::string> names;

@@ -53,10 +53,7 @@ std::vector<double> edgesWithin(const Motion& motion, const std::vector<SlipEven
 }
 
 void requireUsable(const SlipEvent& slip, const std::string& key) {
-  if (!(slip.window.from < slip.window.to)) {
-    refuse("the slip ends before it begins", key + ".window", std::to_string(slip.window.to),
-           "more than " + std::to_string(slip.window.from) + " s");
-  }
+  requireSpan(slip.window, key + ".window");
   if (!(slip.ratio >= -1.0) || !std::isfinite(slip.ratio)) {
     refuse("a rim cannot turn against the ground by a ratio", key + ".ratio", std::to_string(slip.ratio),
            ">= -1");

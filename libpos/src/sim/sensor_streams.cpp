@@ -53,18 +53,18 @@ class StreamMaker {
   StreamMaker(const SensorEntry& entry, const SensorSite& site) : entry_(entry), site_(site) {}
 
   std::unique_ptr<SensorStream> operator()(ImuModel model) const {
-    model.sensor = entry_.name;
+    named(model, streamOf(entry_.name));
     if (!entry_.mount.empty()) model.p_body = place(entry_.mount);
-    return makeImuStream(model, site_.earth, context());
+    return makeImuStream(model, site_.earth, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(EncoderModel model) const {
-    model.sensor = entry_.name;
-    return makeEncoderStream(model, site_.vehicle, context());
+    named(model, streamOf(entry_.name));
+    return makeEncoderStream(model, site_.vehicle, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(UwbConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     for (Tag& tag : config.tags) {
       if (!tag.mount.empty()) tag.tag_body = place(tag.mount);
     }
@@ -75,7 +75,7 @@ class StreamMaker {
   }
 
   std::unique_ptr<SensorStream> operator()(GnssConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.antenna_body = place(entry_.mount);
     if (!site_.map->origin)
       refuse("satellites need a map that is tied to the Earth", "type", "gnss", "a map with an origin");
@@ -84,14 +84,14 @@ class StreamMaker {
   }
 
   std::unique_ptr<SensorStream> operator()(LidarConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.scanner.T_body_sensor.translation = place(entry_.mount);
     if (!site_.grid) refuse("a laser scanner needs walls to see", "type", "lidar", "a map with a grid");
     return std::make_unique<LidarStream>(config, site_.grid, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(SupportLegSensor model) const {
-    named(model.config);
+    named(model.config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) model.config.scanner.T_body_sensor.translation = place(entry_.mount);
     if (!site_.shearer)
       refuse("support legs stand along a shearer's conveyor only", "type", "support_legs",
@@ -100,26 +100,19 @@ class StreamMaker {
   }
 
   std::unique_ptr<SensorStream> operator()(PassageConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.antenna_body = place(entry_.mount);
     return std::make_unique<PassageStream>(config, site_.motion, site_.run);
   }
 
  private:
   template <class Config>
-  void named(Config& config) const {
+  void named(Config& config, std::uint64_t stream) const {
     config.sensor = entry_.name;
-    config.timing.stream = static_cast<std::uint32_t>(streamOf(entry_.name));
+    config.timing.stream = stream;
   }
 
   Eigen::Vector3d place(const std::string& mount) const { return site_.vehicle.mount(mount).p_body; }
-
-  StreamContext context() const {
-    return {.motion = site_.motion,
-            .seed = {.seed = site_.run.seed, .stream = streamOf(entry_.name)},
-            .start = site_.run.start,
-            .duration = site_.duration};
-  }
 
   /// Each support stands beside the line of the conveyor that it was last pulled up to.
   LegPlacer legPlacer(const SupportLegSensor& model) const {
@@ -142,9 +135,7 @@ void requireUniqueNames(const std::vector<SensorEntry>& sensors) {
       if (sensors[j].name == sensors[i].name) {
         refuse("two sensors have the same name", key, sensors[i].name, "every name once");
       }
-      // 32 bits of a hash number the random streams of some sensors
-      if (static_cast<std::uint32_t>(streamOf(sensors[j].name)) ==
-          static_cast<std::uint32_t>(streamOf(sensors[i].name))) {
+      if (wideStreamOf(sensors[j].name) == wideStreamOf(sensors[i].name)) {
         refuse("two sensors' names give the same random numbers", key, sensors[i].name, "another name",
                "rename one of the two");
       }

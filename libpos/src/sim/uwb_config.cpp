@@ -28,7 +28,7 @@ void checkTags(const UwbConfig& config) {
 
 UwbConfig validated(UwbConfig config) {
   const std::string& key = config.sensor;
-  (void)validated(config.timing, key + ".timing");
+  requireValid(config.timing, key + ".timing");
   (void)validated(config.two_way, key + ".two_way");
   (void)validated(config.errors, key + ".errors");
   checkTags(config);
