@@ -1,29 +1,10 @@
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "pos/io/yaml_document.hpp"
+#include "quoted.hpp"
 
 namespace pos::io {
 namespace {
-
-/// Text in double quotes, escaped so that both YAML and JSON read it back.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += std::string("\\") + c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\u%04x",
-                    static_cast<unsigned>(static_cast<unsigned char>(c)));
-      out += escape.data();
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
 
 /// Words that read back as the same text without quotes.
 bool isPlainWord(const std::string& text) {
