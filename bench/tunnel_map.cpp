@@ -77,7 +77,7 @@ void projectThroughAllSegments(benchmark::State& state) {
     ++i;
   }
 }
-BENCHMARK(projectThroughAllSegments)->Unit(benchmark::kMillisecond);
+BENCHMARK(projectThroughAllSegments);
 
 void lineOfSight60m(benchmark::State& state) {
   pos::RandomStream random(3, 0);

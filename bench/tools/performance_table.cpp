@@ -53,7 +53,8 @@ std::string table(const json& run, const Topic& topic) {
     for (const Comparison& c : topic.comparisons) text += row(run, c);
   }
   if (topic.figures.empty()) return text;
-  text += "\n| | |\n| --- | --- |\n";
+  if (!topic.comparisons.empty()) text += "\n";
+  text += "| | |\n| --- | --- |\n";
   for (const Figure& f : topic.figures) {
     text +=
         "| " + f.what + " | " + shown(aggregate(run, "max", f.benchmark, f.counter)) + ' ' + f.unit + " |\n";
@@ -112,10 +113,35 @@ Topic inertial() {
           .figures = {{"growth of the peak memory", "sample_ours/conveyor", "memory_growth_kb", "kB"}}};
 }
 
+Topic tunnelMap() {
+  return {.title = "Tunnel map of 100 000 segments",
+          .yardstick = "a walk through all segments",
+          .comparisons = {{"nearest place in a roadway", "project", "projectThroughAllSegments", "cpu_time",
+                           "ns", 0.0}},
+          .figures = {{"one line of sight of 60 m", "lineOfSight60m", "cpu_time", "ns"},
+                      {"building the network", "buildNetwork", "cpu_time", "ms"},
+                      {"memory of the network, per segment", "buildNetwork", "bytes_per_segment", "B"}}};
+}
+
+Topic dualUwb() {
+  const auto epoch = [](const char* what, const char* benchmark) {
+    return Figure{what, benchmark, "ns_per_epoch", "ns"};
+  };
+  return {.title = "dual_uwb, an epoch of 8 ranges",
+          .yardstick = "",
+          .comparisons = {},
+          .figures = {epoch("filter", "filter_epoch/ranges_8"),
+                      epoch("filter with a bias state for each of 8 links",
+                            "filter_epoch/ranges_8_with_8_bias_states"),
+                      epoch("rigid fit from nothing", "rigid_epoch/ranges_8"),
+                      epoch("rigid fit from a prediction", "rigid_epoch/ranges_8_from_prediction"),
+                      epoch("one tag by itself, 4 ranges", "tag_epoch")}};
+}
+
 }  // namespace
 
 std::vector<Topic> topics() {
-  return {particleFilter(), rangeOdometry(), reading(), replay(), inertial()};
+  return {particleFilter(), rangeOdometry(), dualUwb(), reading(), replay(), inertial(), tunnelMap()};
 }
 
 json parsed(const std::string& text) {

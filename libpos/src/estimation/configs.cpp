@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "pos/estimation/config_checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 void requireUniqueTags(const std::vector<TagMount>& tags) {
   std::set<TagId> seen;
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    const std::string key = "tags[" + std::to_string(i) + "]";
+    const std::string key = indexed("tags", i);
     if (!tags[i].p_body.allFinite()) refuse("a tag's place is no number", key, "", "x_m, y_m, z_m in metres");
     if (!seen.insert(tags[i].id).second) {
       refuse("two tags have the same id", key + ".id", std::to_string(tags[i].id), "every id once");
@@ -112,9 +112,7 @@ OdometryNoise validated(OdometryNoise config) {
 }
 
 GateConfig validated(GateConfig config) {
-  if (!(config.confidence > 0.0 && config.confidence < 1.0)) {
-    refuse("the gate needs a confidence", "confidence", std::to_string(config.confidence), "> 0 and < 1");
-  }
+  requireConfidence(config.confidence, "confidence");
   requirePositive(config.open_after, "open_after_s");
   requireShare(config.agreement_fraction, "agreement_fraction");
   if (!(config.inflation >= 1.0) || !std::isfinite(config.inflation)) {
@@ -225,9 +223,7 @@ MrptMclConfig validated(MrptMclConfig config) {
 }
 
 SightConfig validated(SightConfig config) {
-  if (!(config.confidence > 0.0 && config.confidence < 1.0)) {
-    refuse("the gate needs a confidence", "confidence", std::to_string(config.confidence), "> 0 and < 1");
-  }
+  requireConfidence(config.confidence, "confidence");
   requirePositive(config.blocked_after, "blocked_after");
   requireNotNegative(config.blocked_for, "blocked_for_s");
   requirePositive(config.restart_after, "restart_after_s");

@@ -1,14 +1,13 @@
 #include "pos/estimation/mcl_checks.hpp"
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::estimation {
 namespace {
 
+/// As pos::require, said of the whole filter.
 void require(bool holds, const char* key, const char* expected) {
-  if (holds) return;
-  throw ConfigError(
-      Complaint{.what = "the particle filter cannot be set up", .key = key, .expected = expected});
+  pos::require(holds, key, expected, "the particle filter cannot be set up");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "pos/estimation/sins_configs.hpp"
 
-#include "pos/estimation/config_checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/estimation/configs.hpp"
 
 namespace pos::estimation {

@@ -1,10 +1,10 @@
 #include "json_document.hpp"
 
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "pos/io/units.hpp"
+#include "quoted.hpp"
 
 namespace pos::io {
 namespace {
@@ -162,23 +162,6 @@ std::string scalarJson(const YamlNode& node) {
 }
 
 }  // namespace
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += std::string("\\") + c;
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      std::array<char, 8> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\u%04x",
-                    static_cast<unsigned>(static_cast<unsigned char>(c)));
-      out += escape.data();
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
 
 YamlDocument parseJson(const std::string& text, const std::filesystem::path& file) {
   std::array<Reached, 2> reached{};

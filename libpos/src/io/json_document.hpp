@@ -12,9 +12,6 @@ namespace pos::io {
 /// and column.
 YamlDocument parseJson(const std::string& text, const std::filesystem::path& file);
 
-/// Text in double quotes, escaped so that both YAML and JSON read it back.
-std::string quoted(const std::string& text);
-
 /// A tree on one line. Plain scalars that are numbers, true or false are written bare, all others in quotes.
 std::string compactJson(const YamlNode& node);
 

@@ -2,20 +2,11 @@
 
 #include <algorithm>
 
+#include "pos/core/config_checks.hpp"
 #include "pos/io/text.hpp"
 
 namespace pos::io {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
-                         const std::string& expected, const std::string& suggestion = "") {
-  throw ConfigError(
-      Complaint{.what = what, .key = key, .got = got, .expected = expected, .suggestion = suggestion});
-}
-
-std::string indexed(const std::string& list, std::size_t i, const std::string& key) {
-  return list + "[" + std::to_string(i) + "]." + key;
-}
 
 bool fitsFileName(const std::string& name) {
   return !name.empty() && name.find_first_not_of(
@@ -30,7 +21,7 @@ void requireUniqueEstimators(const std::vector<EstimatorEntry>& estimators) {
   }
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const std::string& name = estimators[i].name;
-    const std::string key = indexed("estimators", i, "name");
+    const std::string key = indexed("estimators", i) + ".name";
     if (!fitsFileName(name)) {
       refuse("the name does not fit a file name", key, name, "letters, digits, _ and - only");
     }
@@ -46,21 +37,9 @@ void requireUniqueSensors(const std::vector<SensorConfig>& sensors) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (sensors[j].sensor != sensors[i].sensor) continue;
-      refuse("a sensor is listed twice", indexed("sensors", i, "sensor"), sensors[i].sensor,
+      refuse("a sensor is listed twice", indexed("sensors", i) + ".sensor", sensors[i].sensor,
              "every sensor once", "sensors[" + std::to_string(j) + "] names it already; join the two");
     }
-  }
-}
-
-/// Runs a rule of an inner table, so that its complaint names the whole key.
-template <class Rule>
-void withKeyPrefix(const std::string& prefix, Rule rule) {
-  try {
-    rule();
-  } catch (const ConfigError& error) {
-    Complaint complaint = error.complaint();
-    complaint.key = joinedPath(prefix, complaint.key);
-    throw ConfigError(complaint);
   }
 }
 
@@ -115,11 +94,10 @@ void requireWhole(const RunConfig& config) {
 
 RunConfig validated(RunConfig config) {
   requireWhole(config);
-  if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
-  withKeyPrefix("faults", [&] { requireOrder(config.faults); });
+  if (config.truth) under("truth", [&] { requireTruthFile(*config.truth); });
+  under("faults", [&] { requireOrder(config.faults); });
   for (std::size_t i = 0; i < config.estimators.size(); ++i) {
-    withKeyPrefix("estimators[" + std::to_string(i) + "]",
-                  [&] { (void)validated(config.estimators[i].config); });
+    under("estimators[" + std::to_string(i) + "]", [&] { (void)validated(config.estimators[i].config); });
   }
   return config;
 }

@@ -29,7 +29,7 @@ using namespace pos::sim;
 
 OptionTable<Dust> dustOptions() {
   return OptionTable<Dust>("dust", "Dust in the air for a while.")
-      .table("time", &Dust::when, spanOptions<TimeSpan>("time", "When."), "When.")
+      .table("time", &Dust::when, spanOptions("time", "When."), "When.")
       .required()
       .number("drop_probability", &Dust::drop_probability, between(0, 1), "Of a beam, then.");
 }

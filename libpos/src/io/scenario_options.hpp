@@ -45,15 +45,22 @@ void addPlace(OptionTable<T>& table, Member member, const std::string& of) {
           of + " above it.");
 }
 
-/// from_s and to_s of anything with `from` and `to`.
-template <class Span>
-OptionTable<Span> spanOptions(const std::string& key, const std::string& text) {
-  return OptionTable<Span>(key, text)
-      .number("from_s", &Span::from, anything(), "Begin, after the scenario's start.")
+/// The keys of the span of time that `span` gives.
+template <class T, class Member>
+OptionTable<T>& withSpan(OptionTable<T>& table, Member span) {
+  return table
+      .number(
+          "from_s", [span](auto& s) -> auto& { return std::invoke(span, s).from; }, anything(),
+          "Begin, after the scenario's start.")
       .required()
-      .number("to_s", &Span::to, anything(), "End; the moment itself is outside.")
+      .number(
+          "to_s", [span](auto& s) -> auto& { return std::invoke(span, s).to; }, anything(),
+          "End; the moment itself is outside.")
       .required();
 }
+
+/// from_s and to_s of a span of time.
+OptionTable<sim::TimeSpan> spanOptions(const std::string& key, const std::string& text);
 
 /// The keys of a zone that `where` gives.
 template <class T>
@@ -63,8 +70,7 @@ OptionTable<T>& withZone(OptionTable<T>& table) {
           "name", [](auto& zone) -> auto& { return zone.where.name; }, "Name in messages.")
       .table(
           "time", [](auto& zone) -> auto& { return zone.where.time; },
-          spanOptions<sim::TimeSpan>("time", "When it holds; always where absent."),
-          "When it holds; always where absent.")
+          spanOptions("time", "When it holds; always where absent."), "When it holds; always where absent.")
       .list(
           "place", [](auto& zone) -> auto& { return zone.where.place; }, outlinePointOptions(),
           "Outline in which it holds; everywhere where empty.")
@@ -79,67 +85,28 @@ OptionTable<T>& withZone(OptionTable<T>& table) {
           "Standard deviation at its beginning and at its end, evenly in the logarithm between.");
 }
 
-/// The two timing structs of the sensors under common names.
-struct TimingMembers {
-  static auto& latencyJitter(auto& t) {
-    if constexpr (requires { t.latency_jitter; }) {
-      return t.latency_jitter;
-    } else {
-      return t.jitter_sigma;
-    }
-  }
-  static auto& stampError(auto& t) {
-    if constexpr (requires { t.stamp_error; }) {
-      return t.stamp_error;
-    } else {
-      return t.stamp_offset;
-    }
-  }
-  static auto& loss(auto& t) {
-    if constexpr (requires { t.drop_probability; }) {
-      return t.drop_probability;
-    } else {
-      return t.loss_probability;
-    }
-  }
-};
-
 /// When a sensor measures and when its readings arrive; `timing` gives the struct.
 template <class T, class Member>
 void addTiming(OptionTable<T>& table, Member timing) {
-  using Timing = std::remove_cvref_t<std::invoke_result_t<Member, T&>>;
-  table
-      .number(
-          "rate_hz", [timing](auto& s) -> auto& { return std::invoke(timing, s).rate; }, moreThan(0),
-          "Readings per second.")
-      .number(
-          "phase_s", [timing](auto& s) -> auto& { return std::invoke(timing, s).phase; }, atLeast(0),
-          "Moment of the first reading.");
-  if constexpr (requires(Timing t) { t.jitter; }) {
-    table.number(
-        "sampling_jitter_s", [timing](auto& s) -> auto& { return std::invoke(timing, s).jitter; }, atLeast(0),
-        "How much the moments of measuring stray from their beat, standard deviation.");
-  }
-  table
-      .number(
-          "latency_s", [timing](auto& s) -> auto& { return std::invoke(timing, s).latency; }, atLeast(0),
-          "From measuring to arrival.")
-      .number(
-          "latency_jitter_s",
-          [timing](auto& s) -> auto& { return TimingMembers::latencyJitter(std::invoke(timing, s)); },
-          atLeast(0), "How much the latency varies, standard deviation.")
-      .number(
-          "stamp_error_s",
-          [timing](auto& s) -> auto& { return TimingMembers::stampError(std::invoke(timing, s)); },
-          anything(), "Added to every stamp: a clock that is off.")
-      .number(
-          "loss_probability",
-          [timing](auto& s) -> auto& { return TimingMembers::loss(std::invoke(timing, s)); }, between(0, 1),
-          "Share of the readings that never arrive.")
-      .list(
-          "outages", [timing](auto& s) -> auto& { return std::invoke(timing, s).outages; },
-          spanOptions<typename decltype(Timing::outages)::value_type>("outages", "A time without readings."),
-          "Times without readings.");
+  const auto part = [timing](auto field) {
+    return [ timing, field ](auto& sensor) -> auto& {
+      return std::invoke(timing, sensor).*field;
+    };
+  };
+  using sim::Timing;
+  table.number("rate_hz", part(&Timing::rate), moreThan(0), "Readings per second.")
+      .number("phase_s", part(&Timing::phase), atLeast(0), "Moment of the first reading.")
+      .number("sampling_jitter_s", part(&Timing::jitter), atLeast(0),
+              "How much the moments of measuring stray from their beat, standard deviation.")
+      .number("latency_s", part(&Timing::latency), atLeast(0), "From measuring to arrival.")
+      .number("latency_jitter_s", part(&Timing::latency_jitter), atLeast(0),
+              "How much the latency varies, standard deviation.")
+      .number("stamp_error_s", part(&Timing::stamp_error), anything(),
+              "Added to every stamp: a clock that is off.")
+      .number("loss_probability", part(&Timing::drop_probability), between(0, 1),
+              "Share of the readings that never arrive.")
+      .list("outages", part(&Timing::outages), spanOptions("outages", "A time without readings."),
+            "Times without readings.");
 }
 
 }  // namespace pos::io

@@ -70,7 +70,7 @@ OptionTable<NlosEpisode> episodeOptions() {
   OptionTable<NlosEpisode> table("nlos_episodes", "One anchor hidden for a while.");
   table.integer("anchor", &NlosEpisode::anchor, anything(), "Its number.")
       .required()
-      .table("time", &NlosEpisode::when, spanOptions<TimeSpan>("time", "When."), "When.")
+      .table("time", &NlosEpisode::when, spanOptions("time", "When."), "When.")
       .required();
   return withLaw(table, &NlosEpisode::bias);
 }
@@ -80,7 +80,7 @@ OptionTable<AnchorSilence> silenceOptions() {
       .integer("anchor", &AnchorSilence::anchor, anything(), "Its number.")
       .required()
       .integer("tag", &AnchorSilence::tag, anything(), "The tag that does not hear it; all where absent.")
-      .table("time", &AnchorSilence::when, spanOptions<TimeSpan>("time", "When."), "When.")
+      .table("time", &AnchorSilence::when, spanOptions("time", "When."), "When.")
       .required();
 }
 

@@ -45,15 +45,8 @@ OptionTable<TriadErrors> triadOptions(const std::string& title, const std::strin
 }
 
 OptionTable<SlipEvent> slipOptions() {
-  return OptionTable<SlipEvent>("slips", "Wheels that do not roll as the ground goes by, for a while.")
-      .number(
-          "from_s", [](auto& slip) -> auto& { return slip.window.from; }, anything(),
-          "Begin, after the scenario's start.")
-      .required()
-      .number(
-          "to_s", [](auto& slip) -> auto& { return slip.window.to; }, anything(),
-          "End; the moment itself is outside.")
-      .required()
+  OptionTable<SlipEvent> table("slips", "Wheels that do not roll as the ground goes by, for a while.");
+  return withSpan(table, &SlipEvent::window)
       .choice("kind", &SlipEvent::kind,
               {{"ratio", SlipEvent::Kind::Ratio},
                {"lock_up", SlipEvent::Kind::LockUp},
@@ -71,6 +64,12 @@ OptionTable<SlipEvent> slipOptions() {
 }
 
 }  // namespace
+
+OptionTable<sim::TimeSpan> spanOptions(const std::string& key, const std::string& text) {
+  OptionTable<TimeSpan> table(key, text);
+  return withSpan(
+      table, [](auto& span) -> auto& { return span; });
+}
 
 OptionTable<Eigen::Vector2d> outlinePointOptions() {
   return OptionTable<Eigen::Vector2d>("outline", "A corner.")

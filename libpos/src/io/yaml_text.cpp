@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <string>
 
-#include "json_document.hpp"
+#include "pos/io/yaml_document.hpp"
+#include "quoted.hpp"
 
 namespace pos::io {
 namespace {

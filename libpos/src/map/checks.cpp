@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <iterator>
 
 #include "check_parts.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::map {
 
@@ -57,26 +56,19 @@ std::string metres(double value) {
 }
 
 CheckRules validated(CheckRules rules) {
-  const auto require = [](double value, const char* key) {
-    if (value >= 0.0 && std::isfinite(value)) return;
-    throw ConfigError(Complaint{.what = "a map cannot be checked like this",
-                                .key = key,
-                                .got = std::to_string(value),
-                                .expected = ">= 0"});
-  };
-  require(rules.coincident, "coincident_m");
-  require(rules.gap, "gap_m");
-  require(rules.open_end_reach, "open_end_reach_m");
-  require(rules.station_tolerance, "station_tolerance_m");
-  require(rules.wall_distance, "wall_distance_m");
-  require(rules.anchor_slack, "anchor_slack_m");
-  require(rules.section_without_chamber, "section_without_chamber_m");
-  require(rules.rock_between, "rock_between_m");
-  require(rules.light_reach, "light_reach_m");
-  require(rules.steepest_grade, "steepest_grade");
-  require(rules.bend_angle, "bend_angle_deg");
-  if (!(rules.sample_step > 0.0)) require(-1.0, "sample_step_m");
-  rules.clearance = validated(rules.clearance);
+  requireNotNegative(rules.coincident, "coincident_m", "m");
+  requireNotNegative(rules.gap, "gap_m", "m");
+  requireNotNegative(rules.open_end_reach, "open_end_reach_m", "m");
+  requireNotNegative(rules.station_tolerance, "station_tolerance_m", "m");
+  requireNotNegative(rules.wall_distance, "wall_distance_m", "m");
+  requireNotNegative(rules.anchor_slack, "anchor_slack_m", "m");
+  requireNotNegative(rules.section_without_chamber, "section_without_chamber_m", "m");
+  requireNotNegative(rules.rock_between, "rock_between_m", "m");
+  requireNotNegative(rules.light_reach, "light_reach_m", "m");
+  requireNotNegative(rules.steepest_grade, "steepest_grade");
+  requireNotNegative(rules.bend_angle, "bend_angle_deg");
+  requirePositive(rules.sample_step, "sample_step_m", "m");
+  requireValid(rules.clearance, "clearance");
   return rules;
 }
 

@@ -4,18 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::map {
 namespace {
-
-void requireGap(double value, const char* key) {
-  if (value >= 0.0 && std::isfinite(value)) return;
-  throw ConfigError(Complaint{.what = "a clearance cannot be negative",
-                              .key = key,
-                              .got = std::to_string(value),
-                              .expected = ">= 0 m"});
-}
 
 /// Lower of the two roof heights over the vehicle's sides.
 double roofOver(const Roadway& roadway, double side_a, double side_b) {
@@ -25,10 +17,10 @@ double roofOver(const Roadway& roadway, double side_a, double side_b) {
 }  // namespace
 
 ClearanceRules validated(ClearanceRules rules) {
-  requireGap(rules.wall_gap, "wall_gap_m");
-  requireGap(rules.walkway, "walkway_m");
-  requireGap(rules.meeting_gap, "meeting_gap_m");
-  requireGap(rules.roof_gap, "roof_gap_m");
+  requireNotNegative(rules.wall_gap, "wall_gap_m", "m");
+  requireNotNegative(rules.walkway, "walkway_m", "m");
+  requireNotNegative(rules.meeting_gap, "meeting_gap_m", "m");
+  requireNotNegative(rules.roof_gap, "roof_gap_m", "m");
   return rules;
 }
 

@@ -4,22 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "range_information.hpp"
 
 namespace pos::map {
 namespace {
-
-[[noreturn]] void refuse(const char* key, double got, const char* expected) {
-  throw ConfigError(Complaint{.what = "coverage cannot be computed like this",
-                              .key = key,
-                              .got = std::to_string(got),
-                              .expected = expected});
-}
-
-void requirePositive(double value, const char* key) {
-  if (!(value > 0.0 && std::isfinite(value))) refuse(key, value, "> 0");
-}
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -43,12 +32,11 @@ Eigen::Matrix2d rangeInformation(const Eigen::Vector3d& p_map, double heading, c
 }
 
 CoverageRules validated(CoverageRules rules) {
-  requirePositive(rules.range_sigma, "range_sigma_m");
-  requirePositive(rules.range_limit, "range_limit_m");
-  requirePositive(rules.step, "step_m");
-  requirePositive(rules.singular_sigma, "singular_sigma_m");
-  if (!(rules.tag_height >= 0.0 && std::isfinite(rules.tag_height)))
-    refuse("tag_height_m", rules.tag_height, ">= 0");
+  requirePositive(rules.range_sigma, "range_sigma_m", "m");
+  requirePositive(rules.range_limit, "range_limit_m", "m");
+  requirePositive(rules.step, "step_m", "m");
+  requirePositive(rules.singular_sigma, "singular_sigma_m", "m");
+  requireNotNegative(rules.tag_height, "tag_height_m", "m");
   return rules;
 }
 

@@ -1,10 +1,10 @@
 #include "pos/map/lock_intervals.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "interval_walk.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::map {
 namespace {
@@ -61,16 +61,12 @@ double LockInterval::length() const {
 }
 
 DivisionRules validated(DivisionRules rules) {
-  const auto refuse = [](const char* key, double got, const char* expected) {
-    throw ConfigError(Complaint{.what = "lock intervals cannot be divided like this",
-                                .key = key,
-                                .got = std::to_string(got),
-                                .expected = expected});
-  };
-  if (rules.merge < 1) refuse("merge", rules.merge, ">= 1");
-  if (!(rules.straight_within > 0.0 && rules.straight_within < 1.6))
-    refuse("straight_within_deg", rules.straight_within, "0 to 90 deg");
-  if (rules.nodes_at_most < 1) refuse("nodes_at_most", rules.nodes_at_most, ">= 1");
+  requirePositive(rules.merge, "merge");
+  if (!(rules.straight_within > 0.0 && rules.straight_within < 1.6)) {
+    refuse("this is no angle at which roadways go straight on", "straight_within_deg",
+           std::to_string(degrees(rules.straight_within)), "0 to 90 deg");
+  }
+  requirePositive(rules.nodes_at_most, "nodes_at_most");
   return rules;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "range_information.hpp"
 
 namespace pos::map {
@@ -164,18 +164,13 @@ std::vector<Anchor> withIds(std::vector<Anchor> anchors, const TunnelMap& map) {
 }  // namespace
 
 PlanRules validated(PlanRules rules) {
-  (void)validated(rules.coverage);
-  const auto refuse = [](const char* key, double got, const char* expected) {
-    throw ConfigError(Complaint{.what = "anchors cannot be planned like this",
-                                .key = key,
-                                .got = std::to_string(got),
-                                .expected = expected});
-  };
-  if (!(rules.along > 0.0)) refuse("along_m", rules.along, "> 0");
-  if (!(rules.across > 0.0)) refuse("across_m", rules.across, "> 0");
-  if (!(rules.met_share > 0.0 && rules.met_share <= 1.0)) refuse("met_share", rules.met_share, "0 to 1");
-  if (!(rules.candidate_step > 0.0)) refuse("candidate_step_m", rules.candidate_step, "> 0");
-  if (!(rules.anchor_height >= 0.0)) refuse("anchor_height_m", rules.anchor_height, ">= 0");
+  requireValid(rules.coverage, "coverage");
+  requirePositive(rules.along, "along_m", "m");
+  requirePositive(rules.across, "across_m", "m");
+  requireShare(rules.met_share, "met_share");
+  requirePositive(rules.met_share, "met_share");
+  requirePositive(rules.candidate_step, "candidate_step_m", "m");
+  requireNotNegative(rules.anchor_height, "anchor_height_m", "m");
   return rules;
 }
 

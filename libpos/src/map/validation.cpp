@@ -3,7 +3,7 @@
 #include <set>
 
 #include "pos/core/angle.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/map/tunnel_map.hpp"
 
 namespace pos::map {
@@ -13,30 +13,6 @@ namespace {
 constexpr double kShortestSegment = 1e-4;
 /// An arc that goes farther round is two arcs.
 constexpr double kLongestArc = radians(355.0);
-
-std::string indexed(const char* list, std::size_t index) {
-  return std::string(list) + "[" + std::to_string(index) + "]";
-}
-
-[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
-                         const std::string& expected, const std::string& suggestion = {}) {
-  throw ConfigError(
-      Complaint{.what = what, .key = key, .got = got, .expected = expected, .suggestion = suggestion});
-}
-
-void requirePositive(double value, const std::string& key, const std::string& owner) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  refuse(owner + " has a size that cannot be", key, std::to_string(value), "a number > 0");
-}
-
-void requireNotNegative(double value, const std::string& key, const std::string& owner) {
-  if (value >= 0.0 && std::isfinite(value)) return;
-  refuse(owner + " has a size that cannot be", key, std::to_string(value), "a number >= 0");
-}
-
-void requireNumber(double value, const std::string& key, const std::string& owner) {
-  if (!std::isfinite(value)) refuse(owner + " has a value that is no number", key, "", "a number");
-}
 
 bool isDate(const std::string& text) {
   if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
@@ -49,16 +25,14 @@ bool isDate(const std::string& text) {
 }
 
 void check(const Anchor& anchor, const std::string& key) {
+  const std::string owner = "anchor " + std::to_string(anchor.id);
   if (!anchor.p_map.allFinite()) {
     refuse("anchor has a coordinate that is no number", key, "", "x_m, y_m, z_m in metres",
            "look up the anchor in the survey");
   }
-  if (!(anchor.survey_sigma >= 0.0) || !std::isfinite(anchor.survey_sigma)) {
-    refuse("anchor has a bad survey sigma", key + ".survey_sigma_m", std::to_string(anchor.survey_sigma),
-           ">= 0 m");
-  }
-  requireNumber(anchor.range_bias, key + ".range_bias_m", "anchor");
-  requireNotNegative(anchor.antenna_delay, key + ".antenna_delay_s", "anchor");
+  requireNotNegative(anchor.survey_sigma, key + ".survey_sigma_m", "m", owner);
+  requireFinite(anchor.range_bias, key + ".range_bias_m", "m", owner);
+  requireNotNegative(anchor.antenna_delay, key + ".antenna_delay_s", "s", owner);
   if (!anchor.survey_date.empty() && !isDate(anchor.survey_date)) {
     refuse("anchor has a survey date that is none", key + ".survey_date", anchor.survey_date, "YYYY-MM-DD");
   }
@@ -103,7 +77,7 @@ void checkCentreline(const Roadway& roadway, const std::string& key) {
   }
   for (std::size_t i = 0; i < roadway.centreline.size(); ++i) {
     const CentrelinePoint& point = roadway.centreline[i];
-    const std::string point_key = key + "[" + std::to_string(i) + "]";
+    const std::string point_key = indexed(key, i);
     if (!point.p_map.allFinite()) refuse(owner + " has a coordinate that is no number", point_key, "", "m");
     if (!(std::abs(point.arc) <= kLongestArc)) {
       refuse(owner + " has an arc that goes too far round", point_key + ".arc_deg",
@@ -120,10 +94,10 @@ void checkCentreline(const Roadway& roadway, const std::string& key) {
 void check(const Roadway& roadway, const std::string& key) {
   const std::string owner = "roadway " + roadway.id;
   checkCentreline(roadway, key + ".centreline");
-  requireNumber(roadway.chainage_start, key + ".chainage_start_m", owner);
-  requirePositive(roadway.width, key + ".width_m", owner);
-  requirePositive(roadway.height, key + ".height_m", owner);
-  if (roadway.speed_limit) requirePositive(*roadway.speed_limit, key + ".speed_limit_m_per_s", owner);
+  requireFinite(roadway.chainage_start, key + ".chainage_start_m", "m", owner);
+  requirePositive(roadway.width, key + ".width_m", "m", owner);
+  requirePositive(roadway.height, key + ".height_m", "m", owner);
+  if (roadway.speed_limit) requirePositive(*roadway.speed_limit, key + ".speed_limit_m_per_s", "m/s", owner);
   if (roadway.section == Section::Arch && roadway.height < 0.5 * roadway.width) {
     refuse(owner + " is an arch lower than its semicircle", key + ".height_m", std::to_string(roadway.height),
            "at least half the width", "make it a rectangle, or correct width and height");
@@ -147,12 +121,12 @@ class References {
 
   void check(const RoadwayPlace& place, const std::string& key, const char* chainage = ".chainage_m") const {
     requireKnown(place.roadway, key);
-    requireNumber(place.chainage, key + chainage, "the object");
+    requireFinite(place.chainage, key + chainage, "m", "the object");
   }
   void check(const RoadwayStretch& stretch, const std::string& key) const {
     requireKnown(stretch.roadway, key);
-    requireNumber(stretch.from, key + ".from_m", "the stretch");
-    requireNumber(stretch.to, key + ".to_m", "the stretch");
+    requireFinite(stretch.from, key + ".from_m", "m", "the stretch");
+    requireFinite(stretch.to, key + ".to_m", "m", "the stretch");
   }
   void checkOrdered(const RoadwayStretch& stretch, const std::string& key) const {
     check(stretch, key);
@@ -173,17 +147,17 @@ class References {
 
 void check(const Chamber& chamber, const std::string& key) {
   const std::string owner = "chamber " + chamber.id;
-  requireNotNegative(chamber.length, key + ".length_m", owner);
-  requireNotNegative(chamber.depth, key + ".depth_m", owner);
-  requirePositive(chamber.detection_sigma, key + ".detection_sigma_m", owner);
+  requireNotNegative(chamber.length, key + ".length_m", "m", owner);
+  requireNotNegative(chamber.depth, key + ".depth_m", "m", owner);
+  requirePositive(chamber.detection_sigma, key + ".detection_sigma_m", "m", owner);
   if (chamber.capacity < 0) {
     refuse(owner + " has a negative capacity", key + ".capacity", std::to_string(chamber.capacity), ">= 0");
   }
 }
 
 void check(const Portal& portal, const std::string& key) {
-  requireNumber(portal.handover_from, key + ".handover_from_m", "portal " + portal.id);
-  requireNumber(portal.handover_to, key + ".handover_to_m", "portal " + portal.id);
+  requireFinite(portal.handover_from, key + ".handover_from_m", "m", "portal " + portal.id);
+  requireFinite(portal.handover_to, key + ".handover_to_m", "m", "portal " + portal.id);
   if (portal.handover_from <= portal.handover_to) return;
   refuse("portal " + portal.id + ": the hand-over zone ends before it begins", key + ".handover_to_m",
          std::to_string(portal.handover_to), ">= " + std::to_string(portal.handover_from));
@@ -203,7 +177,8 @@ void check(const RestrictedZone& zone, const std::string& key) {
     refuse("zone " + zone.id + (limits ? " limits the speed to nothing" : " has a speed limit it cannot use"),
            key + ".speed_limit_m_per_s", "", limits ? "a speed" : "no speed, or kind: speed_limit");
   }
-  if (zone.speed_limit) requirePositive(*zone.speed_limit, key + ".speed_limit_m_per_s", "zone " + zone.id);
+  if (zone.speed_limit)
+    requirePositive(*zone.speed_limit, key + ".speed_limit_m_per_s", "m/s", "zone " + zone.id);
 }
 
 template <class Object, class Check>
@@ -219,7 +194,7 @@ void checkJunctions(const TunnelMap& map, const References& references) {
              std::to_string(junction.places.size()) + " places", "at least two");
     }
     for (std::size_t i = 0; i < junction.places.size(); ++i) {
-      references.check(junction.places[i], key + ".places[" + std::to_string(i) + "]");
+      references.check(junction.places[i], indexed(key + ".places", i));
     }
   });
 }
@@ -252,7 +227,7 @@ void checkFurniture(const TunnelMap& map, const References& references) {
   checkEach(map.routes, "routes", [&](const Route& route, const std::string& key) {
     if (route.legs.empty()) refuse("route " + route.id + " goes nowhere", key + ".legs", "", "legs");
     for (std::size_t i = 0; i < route.legs.size(); ++i) {
-      references.check(route.legs[i], key + ".legs[" + std::to_string(i) + "]");
+      references.check(route.legs[i], indexed(key + ".legs", i));
     }
   });
 }
@@ -263,13 +238,13 @@ void check(const Requirements& requirements) {
     refuse("a negative number of anchors is asked for", key + ".anchors_visible",
            std::to_string(requirements.anchors_visible), ">= 0");
   }
-  requirePositive(requirements.range_limit, key + ".range_limit_m", "the radio");
-  requireNotNegative(requirements.tag_height, key + ".tag_height_m", "the tag");
+  requirePositive(requirements.range_limit, key + ".range_limit_m", "m", "the radio");
+  requireNotNegative(requirements.tag_height, key + ".tag_height_m", "m", "the tag");
   checkEach(requirements.vehicles, "requirements.vehicles",
             [](const SiteVehicle& vehicle, const std::string& at) {
-              requirePositive(vehicle.width, at + ".width_m", "vehicle " + vehicle.id);
-              requirePositive(vehicle.height, at + ".height_m", "vehicle " + vehicle.id);
-              requirePositive(vehicle.length, at + ".length_m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.width, at + ".width_m", "m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.height, at + ".height_m", "m", "vehicle " + vehicle.id);
+              requirePositive(vehicle.length, at + ".length_m", "m", "vehicle " + vehicle.id);
             });
 }
 

@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/NormalGravity.hpp>
+#include <cmath>
 #include <vector>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 

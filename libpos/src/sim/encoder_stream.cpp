@@ -1,14 +1,14 @@
 #include <array>
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/encoder.hpp"
 
 namespace pos::sim {
 namespace {
 
-constexpr double kRounding = 1e-9;  // s
+enum Purpose : std::uint32_t { kLeft = 2, kYaw = 5, kRight = Ticker::kFirstPurpose + 2 };
 
 /// One wheel: its rim's way becomes counts, and counts become the way that the vehicle's computer believes.
 class Wheel {
@@ -52,28 +52,28 @@ Pose2 arc(const WheelPair& way, double track) {
 
 class EncoderStream final : public SensorStream {
  public:
-  EncoderStream(const EncoderModel& model, const Vehicle& vehicle, const StreamContext& context)
+  EncoderStream(const EncoderModel& model, const Vehicle& vehicle, std::shared_ptr<const Motion> motion,
+                const RunSetup& run)
       : model_(validated(model)),
         vehicle_(vehicle),
         file_track_(vehicle.encoder_track),
-        context_(context),
-        clock_(model.timing, context.seed, context.start),
-        noises_{context.seed.sequence(Purpose::Noise, 0), context.seed.sequence(Purpose::Noise, 1)},
-        extra_(context.seed.sequence(Purpose::Extra)),
+        motion_(std::move(motion)),
+        ticker_(model.timing, run, motion_->duration()),
+        noises_{randomStream(run, model.timing, kLeft), randomStream(run, model.timing, kRight)},
+        yaw_noise_(randomStream(run, model.timing, kYaw)),
         left_(model_, vehicle.wheel_radius, model_.left_radius_error),
         right_(model_, vehicle.wheel_radius, model_.right_radius_error) {
     vehicle_.encoder_track = file_track_ / (1.0 + model_.track_error);
   }
 
   std::optional<Delivery> next() override {
-    for (SensorClock::Tick tick = clock_.next(); tick.t <= context_.duration + kRounding;
-         tick = clock_.next()) {
-      const bool begun = roll(tick.t);
+    while (const std::optional<Tick> tick = ticker_.next()) {
+      const bool begun = roll(tick->t);
       if (model_.output == EncoderModel::Output::Ticks) {
-        if (!tick.lost) return delivery(tick, WheelTicks{left_.counter(), right_.counter()});
+        if (!tick->lost) return delivery(tick->t, WheelTicks{left_.counter(), right_.counter()});
       } else if (begun) {
         const Reading reading = readingOverInterval();
-        if (!tick.lost) return delivery(tick, reading);
+        if (!tick->lost) return delivery(tick->t, reading);
       }
     }
     return std::nullopt;
@@ -82,7 +82,7 @@ class EncoderStream final : public SensorStream {
  private:
   /// Turns the wheels up to `t`; false the first time, when no interval lies behind.
   bool roll(double t) {
-    const WheelPair way = rimTravel(*context_.motion, vehicle_, model_.slips, last_t_, t);
+    const WheelPair way = rimTravel(*motion_, vehicle_, model_.slips, last_t_, t);
     before_ = {left_.believedWay(), right_.believedWay()};
     interval_ = t - last_t_;
     last_t_ = t;
@@ -109,7 +109,7 @@ class EncoderStream final : public SensorStream {
   /// Motion since the last increment that arrived: what is lost is made up for by the next one.
   OdometryIncrement increment(const WheelPair& way) {
     Pose2 step = arc(way, file_track_);
-    step.yaw += model_.yaw_sigma * extra_.normal();
+    step.yaw += model_.yaw_sigma * yaw_noise_.normal();
     since_delivery_ = since_delivery_ * step;
     way_since_delivery_ = {way_since_delivery_.left + way.left, way_since_delivery_.right + way.right};
     time_since_delivery_ += interval_;
@@ -141,21 +141,21 @@ class EncoderStream final : public SensorStream {
     return P;
   }
 
-  Delivery delivery(const SensorClock::Tick& tick, const Reading& reading) {
+  Delivery delivery(double t, const Reading& reading) {
     since_delivery_ = {};
     way_since_delivery_ = {};
     time_since_delivery_ = 0.0;
     steps_since_delivery_ = 0;
-    return {tick.arrival, {tick.stamp, model_.sensor, reading}};
+    return ticker_.sent(t, model_.sensor, reading);
   }
 
   EncoderModel model_;
   Vehicle vehicle_;  ///< with the true track
   double file_track_;
-  StreamContext context_;
-  SensorClock clock_;
+  std::shared_ptr<const Motion> motion_;
+  Ticker ticker_;
   std::array<RandomStream, 2> noises_;
-  RandomStream extra_;
+  RandomStream yaw_noise_;
   Wheel left_;
   Wheel right_;
   WheelPair before_ = {};
@@ -171,13 +171,13 @@ class EncoderStream final : public SensorStream {
 }  // namespace
 
 std::unique_ptr<SensorStream> makeEncoderStream(const EncoderModel& model, const Vehicle& vehicle,
-                                                const StreamContext& context) {
-  ensure(context.motion != nullptr, "wheels need a motion");
+                                                std::shared_ptr<const Motion> motion, const RunSetup& run) {
+  ensure(motion != nullptr, "wheels need a motion");
   // A guided machine may have a haulage wheel that counts: then its vehicle file says how large it is.
   if (!(vehicle.wheel_radius > 0.0) || !(vehicle.encoder_track > 0.0)) {
     refuse("the vehicle has no wheels to count", "sensor", model.sensor, "a vehicle on wheels");
   }
-  return std::make_unique<EncoderStream>(model, validated(vehicle), context);
+  return std::make_unique<EncoderStream>(model, validated(vehicle), std::move(motion), run);
 }
 
 }  // namespace pos::sim

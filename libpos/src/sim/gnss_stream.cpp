@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
@@ -21,7 +21,7 @@ void check(const GnssZone& zone, const std::string& key) {
 
 GnssConfig validated(GnssConfig config) {
   const std::string& key = config.sensor;
-  (void)validated(config.timing, key + ".timing");
+  requireValid(config.timing, key + ".timing");
   require(config.antenna_body.allFinite(), key + ".antenna_body", "three numbers, m");
   require(!config.zones.empty(), key + ".zones", "at least one zone; without one there are no fixes");
   for (const GnssZone& zone : config.zones) check(zone, key + ".zones[" + zone.where.name + "]");

@@ -2,13 +2,19 @@
 
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
 
 constexpr double kGravity = 9.80665;  // m/s^2 of the data sheets' g
+
+enum Purpose : std::uint32_t { kConstants = 1, kNoise = 2, kDrift = 3 };
+
+std::uint32_t purposeOf(Purpose purpose, TriadNoise::Part part) {
+  return static_cast<std::uint32_t>(part) * Ticker::kFirstPurpose + purpose;
+}
 
 /// I + small angles between the axes, times I + scale.
 Eigen::Matrix3d gainMatrix(const TriadErrors& errors, RandomStream& random) {
@@ -38,33 +44,32 @@ void requireUsable(const TriadErrors& errors, const std::string& key) {
 
 }  // namespace
 
-TriadNoise::TriadNoise(const TriadErrors& errors, SensorSeed seed, unsigned part, double dt)
+TriadNoise::TriadNoise(const TriadErrors& errors, Part part, const Timing& timing, const RunSetup& run)
     : errors_(errors),
-      dt_(dt),
-      noise_(seed.sequence(Purpose::Noise, part)),
-      drift_(seed.sequence(Purpose::Drift, part)) {
-  RandomStream constants = seed.sequence(Purpose::Constants, part);
+      noise_(randomStream(run, timing, purposeOf(kNoise, part))),
+      drift_(randomStream(run, timing, purposeOf(kDrift, part))) {
+  RandomStream constants = randomStream(run, timing, purposeOf(kConstants, part));
   bias_ = errors.bias + errors.bias_sigma * normals(constants);
   gain_ = gainMatrix(errors, constants);
   instability_ = errors.instability_sigma * normals(drift_);
 }
 
-void TriadNoise::drift() {
+void TriadNoise::drift(double dt) {
   if (errors_.instability_sigma > 0.0) {
-    const double kept = std::exp(-dt_ / errors_.instability_time);
+    const double kept = std::exp(-dt / errors_.instability_time);
     const double fresh =
-        errors_.instability_sigma * std::sqrt(-std::expm1(-2.0 * dt_ / errors_.instability_time));
+        errors_.instability_sigma * std::sqrt(-std::expm1(-2.0 * dt / errors_.instability_time));
     instability_ = kept * instability_ + fresh * normals(drift_);
   }
-  if (errors_.walk_density > 0.0) walk_ += errors_.walk_density * std::sqrt(dt_) * normals(drift_);
+  if (errors_.walk_density > 0.0) walk_ += errors_.walk_density * std::sqrt(dt) * normals(drift_);
 }
 
-Eigen::Vector3d TriadNoise::reading(const Eigen::Vector3d& average, ImuSample::Kind kind) {
-  drift();
+Eigen::Vector3d TriadNoise::reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind) {
+  drift(dt);
   Eigen::Vector3d value = gain_ * average + bias_ + instability_ + walk_;
-  if (errors_.noise_density > 0.0) value += errors_.noise_density / std::sqrt(dt_) * normals(noise_);
+  if (errors_.noise_density > 0.0) value += errors_.noise_density / std::sqrt(dt) * normals(noise_);
   if (errors_.limit > 0.0) value = value.cwiseMax(-errors_.limit).cwiseMin(errors_.limit);
-  return rounded(kind == ImuSample::Kind::Increments ? (value * dt_).eval() : value, kind);
+  return rounded(kind == ImuSample::Kind::Increments ? (value * dt).eval() : value, kind);
 }
 
 Eigen::Vector3d TriadNoise::rounded(const Eigen::Vector3d& value, ImuSample::Kind kind) {

@@ -7,18 +7,17 @@ namespace pos::sim {
 
 class TriadNoise {
  public:
-  /// `part` 0 for gyros, 1 for accelerometers; `dt` the sample interval in s.
-  TriadNoise(const TriadErrors& errors, SensorSeed seed, unsigned part, double dt);
+  enum class Part : std::uint32_t { Gyros = 0, Accelerometers = 1 };
+  TriadNoise(const TriadErrors& errors, Part part, const Timing& timing, const RunSetup& run);
 
-  /// The reading for the exact average over the next interval (U); for Increments multiplied by dt.
-  Eigen::Vector3d reading(const Eigen::Vector3d& average, ImuSample::Kind kind);
+  /// The reading for the exact average (U) over the next interval of `dt` s; for Increments multiplied by dt.
+  Eigen::Vector3d reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind);
 
  private:
-  void drift();
+  void drift(double dt);
   Eigen::Vector3d rounded(const Eigen::Vector3d& value, ImuSample::Kind kind);
 
   TriadErrors errors_;
-  double dt_;
   RandomStream noise_;
   RandomStream drift_;
   Eigen::Matrix3d gain_ = Eigen::Matrix3d::Identity();

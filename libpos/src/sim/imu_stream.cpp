@@ -1,5 +1,8 @@
-#include "complaints.hpp"
+#include <algorithm>
+#include <optional>
+
 #include "imu_errors.hpp"
+#include "pos/core/error.hpp"
 #include "pos/sim/imu.hpp"
 
 namespace pos::sim {
@@ -9,55 +12,54 @@ constexpr double kRounding = 1e-9;  // s
 
 class ImuStream final : public SensorStream {
  public:
-  ImuStream(const ImuModel& model, std::shared_ptr<const Earth> earth, const StreamContext& context)
+  ImuStream(const ImuModel& model, std::shared_ptr<const Earth> earth, std::shared_ptr<const Motion> motion,
+            const RunSetup& run)
       : model_(validated(model)),
         earth_(std::move(earth)),
-        context_(context),
-        interval_(1.0 / model.timing.rate),
-        clock_(model.timing, context.seed, context.start),
-        gyro_(model.errors.gyro, context.seed, 0, interval_),
-        accelerometer_(model.errors.accelerometer, context.seed, 1, interval_) {}
+        motion_(std::move(motion)),
+        ticker_(model.timing, run, motion_->duration()),
+        gyro_(model.errors.gyro, TriadNoise::Part::Gyros, model.timing, run),
+        accelerometer_(model.errors.accelerometer, TriadNoise::Part::Accelerometers, model.timing, run) {}
 
   std::optional<Delivery> next() override {
-    for (SensorClock::Tick tick = clock_.next(); tick.t <= context_.duration + kRounding;
-         tick = clock_.next()) {
-      if (tick.t < interval_ - kRounding) continue;
+    const double interval = 1.0 / model_.timing.rate;
+    while (const std::optional<Tick> tick = ticker_.next()) {
+      if (!last_t_ && tick->t < interval - kRounding) continue;
       // Errors go on while a sample is lost; the truth of a lost sample is not needed.
-      const double from = std::max(0.0, begun_ ? last_t_ : tick.t - interval_);
-      begun_ = true;
-      last_t_ = tick.t;
-      const ImuSample sample = sampleOver(from, tick.t);
-      if (!tick.lost) return Delivery{tick.arrival, {tick.stamp, model_.sensor, sample}};
+      const double from = last_t_.value_or(std::max(0.0, tick->t - interval));
+      last_t_ = tick->t;
+      const ImuSample sample = sampleOver(from, tick->t);
+      if (!tick->lost) return ticker_.sent(tick->t, model_.sensor, sample);
     }
     return std::nullopt;
   }
 
  private:
   ImuSample sampleOver(double from, double to) {
-    const InertialIncrement truth = inertialIncrement(*context_.motion, *earth_, model_.p_body, from, to);
+    const InertialIncrement truth = inertialIncrement(*motion_, *earth_, model_.p_body, from, to);
+    const Duration interval = durationFromSeconds(to - from);
+    const double dt = seconds(interval);
     return {.kind = model_.kind,
-            .angular = gyro_.reading(truth.angle / interval_, model_.kind),
-            .linear = accelerometer_.reading(truth.velocity / interval_, model_.kind),
-            .interval = durationFromSeconds(interval_)};
+            .angular = gyro_.reading(truth.angle / dt, dt, model_.kind),
+            .linear = accelerometer_.reading(truth.velocity / dt, dt, model_.kind),
+            .interval = interval};
   }
 
   ImuModel model_;
   std::shared_ptr<const Earth> earth_;
-  StreamContext context_;
-  double interval_;
-  SensorClock clock_;
+  std::shared_ptr<const Motion> motion_;
+  Ticker ticker_;
   TriadNoise gyro_;
   TriadNoise accelerometer_;
-  double last_t_ = 0.0;
-  bool begun_ = false;
+  std::optional<double> last_t_ = {};
 };
 
 }  // namespace
 
 std::unique_ptr<SensorStream> makeImuStream(const ImuModel& model, std::shared_ptr<const Earth> earth,
-                                            const StreamContext& context) {
-  ensure(earth != nullptr && context.motion != nullptr, "an inertial unit needs an Earth and a motion");
-  return std::make_unique<ImuStream>(model, std::move(earth), context);
+                                            std::shared_ptr<const Motion> motion, const RunSetup& run) {
+  ensure(earth != nullptr && motion != nullptr, "an inertial unit needs an Earth and a motion");
+  return std::make_unique<ImuStream>(model, std::move(earth), std::move(motion), run);
 }
 
 }  // namespace pos::sim

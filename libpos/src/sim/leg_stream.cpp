@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deque>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "scanner.hpp"
 
 namespace pos::sim {
@@ -35,7 +35,7 @@ Scan2D beamTo(const Eigen::Vector3d& p_sensor, const ScannerConfig& scanner) {
 }  // namespace
 
 LegConfig validated(LegConfig config) {
-  (void)validated(config.timing, config.sensor + ".timing");
+  requireValid(config.timing, config.sensor + ".timing");
   (void)validated(config.scanner, config.sensor + ".scanner");
   (void)validated(config.row, config.sensor + ".row");
   require(config.mount_error.allFinite(), config.sensor + ".mount_error", "three numbers, rad");

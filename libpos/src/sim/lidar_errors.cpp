@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "pos/core/angle.hpp"
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 

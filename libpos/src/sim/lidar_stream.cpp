@@ -2,14 +2,14 @@
 
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/ray_cast.hpp"
 #include "scanner.hpp"
 
 namespace pos::sim {
 
 LidarConfig validated(LidarConfig config) {
-  (void)validated(config.timing, config.sensor + ".timing");
+  requireValid(config.timing, config.sensor + ".timing");
   (void)validated(config.scanner, config.sensor + ".scanner");
   require(config.rock_from >= 1 && config.rock_from <= 100, config.sensor + ".rock_from", "1 to 100 percent");
   return config;

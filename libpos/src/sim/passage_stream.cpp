@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
@@ -23,7 +23,7 @@ Eigen::Vector3d wayOf(const Kinematics& body) {
 
 PassageConfig validated(PassageConfig config) {
   const std::string& key = config.sensor;
-  (void)validated(config.timing, key + ".timing");
+  requireValid(config.timing, key + ".timing");
   require(config.antenna_body.allFinite(), key + ".antenna_body", "three numbers, m");
   require(!config.places.empty(), key + ".places", "at least one place");
   std::set<std::string> names;
@@ -36,8 +36,8 @@ PassageConfig validated(PassageConfig config) {
   requireNotNegative(config.sigma, key + ".sigma", "m");
   requireNotNegative(config.sigma_time, key + ".sigma_time", "s");
   requireNotNegative(config.sigma_across, key + ".sigma_across", "m");
-  requireProbability(config.missed_probability, key + ".missed_probability");
-  requireProbability(config.wrong_probability, key + ".wrong_probability");
+  requireShare(config.missed_probability, key + ".missed_probability");
+  requireShare(config.wrong_probability, key + ".wrong_probability");
   require(config.wrong_probability == 0.0 || config.places.size() > 1, key + ".wrong_probability",
           "0 with a single place: there is no other to mistake it for");
   return config;

@@ -1,9 +1,10 @@
+#include <cmath>
 #include <optional>
 
 #include "blend.hpp"
-#include "complaints.hpp"
 #include "curve.hpp"
 #include "plan_parts.hpp"
+#include "pos/core/config_checks.hpp"
 #include "speed_plan.hpp"
 
 namespace pos::sim {

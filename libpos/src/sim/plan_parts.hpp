@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string>
 
-#include "complaints.hpp"
 #include "curve.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 

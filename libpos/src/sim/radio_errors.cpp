@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
@@ -24,13 +24,13 @@ void check(const LinkSpread& spread, const std::string& key) {
 }  // namespace
 
 RadioErrors validated(RadioErrors errors, const std::string& key) {
-  requireProbability(errors.drop_probability, key + ".drop_probability");
+  requireShare(errors.drop_probability, key + ".drop_probability");
   for (const LinkError& link : errors.links) check(link, key + ".links");
   check(errors.spread, key + ".spread");
-  requireProbability(errors.multipath.probability, key + ".multipath.probability");
+  requireShare(errors.multipath.probability, key + ".multipath.probability");
   (void)validated(errors.multipath.excess, key + ".multipath.excess");
-  requireProbability(errors.outliers.probability, key + ".outliers.probability");
-  requireProbability(errors.outliers.short_share, key + ".outliers.short_share");
+  requireShare(errors.outliers.probability, key + ".outliers.probability");
+  requireShare(errors.outliers.short_share, key + ".outliers.short_share");
   (void)validated(errors.outliers.size, key + ".outliers.size");
   if (errors.process) {
     requirePositive(errors.process->mean_free, key + ".process.mean_free", "s");
@@ -38,7 +38,7 @@ RadioErrors validated(RadioErrors errors, const std::string& key) {
     (void)validated(errors.process->bias, key + ".process.bias");
   }
   if (errors.blocks) {
-    requireProbability(errors.blocks->probability, key + ".blocks.probability");
+    requireShare(errors.blocks->probability, key + ".blocks.probability");
     requirePositive(errors.blocks->period, key + ".blocks.period", "s");
     (void)validated(errors.blocks->bias, key + ".blocks.bias");
   }

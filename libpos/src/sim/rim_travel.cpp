@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/encoder.hpp"
 #include "quadrature.hpp"
 
@@ -53,10 +53,7 @@ std::vector<double> edgesWithin(const Motion& motion, const std::vector<SlipEven
 }
 
 void requireUsable(const SlipEvent& slip, const std::string& key) {
-  if (!(slip.window.from < slip.window.to)) {
-    refuse("the slip ends before it begins", key + ".window", std::to_string(slip.window.to),
-           "more than " + std::to_string(slip.window.from) + " s");
-  }
+  requireSpan(slip.window, key + ".window");
   if (!(slip.ratio >= -1.0) || !std::isfinite(slip.ratio)) {
     refuse("a rim cannot turn against the ground by a ratio", key + ".ratio", std::to_string(slip.ratio),
            ">= -1");
@@ -100,8 +97,7 @@ EncoderModel validated(const EncoderModel& model) {
   requireNotNegative(model.distance_noise, "distance_noise");
   requireNotNegative(model.speed_sigma, "speed_sigma");
   requireNotNegative(model.yaw_sigma, "yaw_sigma");
-  for (std::size_t i = 0; i < model.slips.size(); ++i)
-    requireUsable(model.slips[i], "slips[" + std::to_string(i) + "]");
+  for (std::size_t i = 0; i < model.slips.size(); ++i) requireUsable(model.slips[i], indexed("slips", i));
   requireApart(model.slips);
   return model;
 }

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "blend.hpp"
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/motion_plan.hpp"
 #include "quadrature.hpp"
 
@@ -23,10 +23,6 @@ struct VerticalArc {
   double radius = 0.0;
   double grade_after = 0.0;
 };
-
-std::string numbered(const std::string& list, std::size_t i) {
-  return list + "[" + std::to_string(i) + "]";
-}
 
 /// Distance from the corner to the ends of a bend of unit length: half its chord over cos(turn / 2), for the
 /// shape is symmetric.
@@ -54,7 +50,7 @@ Bend bendAt(const Route& route, std::size_t i) {
   const double turn = wrapAngle(std::atan2(after.y - corner.y, after.x - corner.x) -
                                 std::atan2(corner.y - before.y, corner.x - before.x));
   if (std::abs(turn) < 1e-12) return {};
-  const std::string key = numbered("route.plan", i);
+  const std::string key = indexed("route.plan", i);
   if (std::abs(turn) > radians(170.0)) {
     refuse("the route turns back on itself", key, std::to_string(degrees(turn)) + " deg", "within 170 deg",
            "use two corners");
@@ -82,7 +78,7 @@ std::vector<PlanPiece> planOf(const Route& route) {
     const Bend bend = i + 2 < route.plan.size() ? bendAt(route, i + 1) : Bend{};
     const double straight = legLength(route, i) - taken - bend.tangent;
     if (!(straight >= -1e-9)) {
-      refuse("the bends at both ends of a leg overlap", numbered("route.plan", i),
+      refuse("the bends at both ends of a leg overlap", indexed("route.plan", i),
              std::to_string(legLength(route, i)) + " m to the next corner",
              "at least " + std::to_string(taken + bend.tangent) + " m", "make the radii smaller");
     }
@@ -103,7 +99,7 @@ double gradeAfter(const std::vector<GradePoint>& profile, std::size_t i) {
   const std::size_t leg = std::min(i, profile.size() - 2);
   const double run = profile[leg + 1].chainage - profile[leg].chainage;
   if (!(run > 0.0)) {
-    refuse("the profile does not ascend", numbered("route.profile", leg + 1) + ".chainage",
+    refuse("the profile does not ascend", indexed("route.profile", leg + 1) + ".chainage",
            std::to_string(profile[leg + 1].chainage), "more than " + std::to_string(profile[leg].chainage));
   }
   return std::atan2(profile[leg + 1].z - profile[leg].z, run);
@@ -116,7 +112,7 @@ std::vector<VerticalArc> verticalArcs(const std::vector<GradePoint>& profile) {
     const double before = gradeAfter(profile, i - 1);
     const double after = gradeAfter(profile, i);
     if (std::abs(after - before) < 1e-12) continue;
-    const std::string key = numbered("route.profile", i);
+    const std::string key = indexed("route.profile", i);
     requirePositive(profile[i].radius, key + ".radius");
     const double tangent = profile[i].radius * std::tan(0.5 * std::abs(after - before));
     const VerticalArc arc{.from = profile[i].chainage - tangent * std::cos(before),

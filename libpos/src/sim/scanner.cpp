@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 
@@ -69,10 +69,10 @@ ScannerConfig validated(ScannerConfig config, const std::string& key) {
   require(config.range_max > config.range_min, key + ".range_max", "above range_min");
   requireNotNegative(config.sigma_range, key + ".sigma_range", "m");
   requireNotNegative(config.sigma_angle, key + ".sigma_angle", "rad");
-  requireProbability(config.drop_probability, key + ".drop_probability");
+  requireShare(config.drop_probability, key + ".drop_probability");
   for (const Dust& dust : config.dust) {
     requireSpan(dust.when, key + ".dust.when");
-    requireProbability(dust.drop_probability, key + ".dust.drop_probability");
+    requireShare(dust.drop_probability, key + ".dust.drop_probability");
   }
   (void)validated(config.errors, key + ".errors");
   const bool straight = config.errors.a1 == 0.0 && config.errors.a2 == 1.0 && config.errors.a3 == 0.0;

@@ -1,6 +1,6 @@
-#include "complaints.hpp"
 #include "curve.hpp"
 #include "plan_parts.hpp"
+#include "pos/core/config_checks.hpp"
 #include "speed_plan.hpp"
 
 namespace pos::sim {

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/map/network.hpp"
 
 namespace pos::sim {
@@ -23,26 +23,11 @@ class TimedMotion : public Motion {
   double duration_;
 };
 
-/// Runs `rule`; a complaint gets `key` in front of its own.
-template <class Rule>
-auto under(const std::string& key, Rule rule) {
-  try {
-    return rule();
-  } catch (const ConfigError& error) {
-    Complaint complaint = error.complaint();
-    complaint.key = complaint.key.empty() ? key : key + "." + complaint.key;
-    throw ConfigError(complaint);
-  }
-}
-
-[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& suggestion) {
-  throw ConfigError(Complaint{.what = what, .key = key, .suggestion = suggestion});
-}
-
 LineOfSight lineOfSight(const RockConfig& rock, const std::shared_ptr<const map::TunnelMap>& map) {
   if (rock.source == RockConfig::Source::None) return {};
   if (rock.source == RockConfig::Source::Roadways) {
-    if (map->roadways.empty()) refuse("the map has no roadways", "rock.source", "use outlines, or none");
+    if (map->roadways.empty())
+      refuse("the map has no roadways", "rock.source", "roadways", "outlines, or none");
     return [network = map::Network(map)](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
       return network.inSight(p, q);
     };
@@ -55,8 +40,8 @@ LineOfSight lineOfSight(const RockConfig& rock, const std::shared_ptr<const map:
 EarthConfig onMap(EarthConfig earth, const map::TunnelMap& map) {
   if (earth.kind == EarthKind::Flat) return earth;
   if (!map.origin) {
-    refuse("an Earth that turns needs a latitude, and the map has no origin", "earth.kind",
-           "give the map an origin, or use flat");
+    refuse("an Earth that turns needs a latitude", "earth.kind", "a map without an origin",
+           "a map with an origin, or flat");
   }
   earth.origin = *map.origin;
   return earth;
@@ -68,72 +53,66 @@ class StreamMaker {
   StreamMaker(const SensorEntry& entry, const SensorSite& site) : entry_(entry), site_(site) {}
 
   std::unique_ptr<SensorStream> operator()(ImuModel model) const {
-    model.sensor = entry_.name;
+    named(model, streamOf(entry_.name));
     if (!entry_.mount.empty()) model.p_body = place(entry_.mount);
-    return makeImuStream(model, site_.earth, context());
+    return makeImuStream(model, site_.earth, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(EncoderModel model) const {
-    model.sensor = entry_.name;
-    return makeEncoderStream(model, site_.vehicle, context());
+    named(model, streamOf(entry_.name));
+    return makeEncoderStream(model, site_.vehicle, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(UwbConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     for (Tag& tag : config.tags) {
       if (!tag.mount.empty()) tag.tag_body = place(tag.mount);
     }
     if (site_.map->anchors.empty())
-      refuse("there are no anchors to range to", "type", "name a map with anchors");
+      refuse("there are no anchors to range to", "type", "uwb", "a map with anchors");
     return std::make_unique<UwbStream>(config, site_.map->anchors, site_.motion, site_.run,
                                        site_.line_of_sight);
   }
 
   std::unique_ptr<SensorStream> operator()(GnssConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.antenna_body = place(entry_.mount);
     if (!site_.map->origin)
-      refuse("satellites need a map that is tied to the Earth", "type", "give the map an origin");
+      refuse("satellites need a map that is tied to the Earth", "type", "gnss", "a map with an origin");
     config.origin = *site_.map->origin;
     return std::make_unique<GnssStream>(config, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(LidarConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.scanner.T_body_sensor.translation = place(entry_.mount);
-    if (!site_.grid) refuse("a laser scanner needs walls to see", "type", "name a map with a grid");
+    if (!site_.grid) refuse("a laser scanner needs walls to see", "type", "lidar", "a map with a grid");
     return std::make_unique<LidarStream>(config, site_.grid, site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(SupportLegSensor model) const {
-    named(model.config);
+    named(model.config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) model.config.scanner.T_body_sensor.translation = place(entry_.mount);
     if (!site_.shearer)
-      refuse("support legs stand along a shearer's conveyor only", "type", "use motion.type: shearer");
+      refuse("support legs stand along a shearer's conveyor only", "type", "support_legs",
+             "motion.type: shearer");
     return std::make_unique<LegStream>(model.config, legPlacer(model), site_.motion, site_.run);
   }
 
   std::unique_ptr<SensorStream> operator()(PassageConfig config) const {
-    named(config);
+    named(config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) config.antenna_body = place(entry_.mount);
     return std::make_unique<PassageStream>(config, site_.motion, site_.run);
   }
 
  private:
   template <class Config>
-  void named(Config& config) const {
+  void named(Config& config, std::uint64_t stream) const {
     config.sensor = entry_.name;
-    config.timing.stream = static_cast<std::uint32_t>(streamOf(entry_.name));
+    config.timing.stream = stream;
   }
 
   Eigen::Vector3d place(const std::string& mount) const { return site_.vehicle.mount(mount).p_body; }
-
-  StreamContext context() const {
-    return {.motion = site_.motion,
-            .seed = {.seed = site_.run.seed, .stream = streamOf(entry_.name)},
-            .start = site_.run.start,
-            .duration = site_.duration};
-  }
 
   /// Each support stands beside the line of the conveyor that it was last pulled up to.
   LegPlacer legPlacer(const SupportLegSensor& model) const {
@@ -151,15 +130,14 @@ class StreamMaker {
 
 void requireUniqueNames(const std::vector<SensorEntry>& sensors) {
   for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const std::string key = "sensors[" + std::to_string(i) + "].name";
+    const std::string key = indexed("sensors", i) + ".name";
     for (std::size_t j = 0; j < i; ++j) {
       if (sensors[j].name == sensors[i].name) {
-        refuse("two sensors have the same name", key, "give every sensor its own name");
+        refuse("two sensors have the same name", key, sensors[i].name, "every name once");
       }
-      // 32 bits of a hash number the random streams of some sensors
-      if (static_cast<std::uint32_t>(streamOf(sensors[j].name)) ==
-          static_cast<std::uint32_t>(streamOf(sensors[i].name))) {
-        refuse("two sensors' names give the same random numbers", key, "rename one of the two");
+      if (wideStreamOf(sensors[j].name) == wideStreamOf(sensors[i].name)) {
+        refuse("two sensors' names give the same random numbers", key, sensors[i].name, "another name",
+               "rename one of the two");
       }
     }
   }
@@ -218,18 +196,16 @@ std::unique_ptr<SensorStream> sensorStream(const SensorEntry& entry, const std::
 }
 
 Scenario validated(Scenario scenario) {
-  under("vehicle", [&] { (void)validated(scenario.vehicle); });
+  requireValid(scenario.vehicle, "vehicle");
   under("motion", [&] { (void)makeMotion(scenario.motion); });
   requireUniqueNames(scenario.sensors);
   for (std::size_t i = 0; i < scenario.sensors.size(); ++i) {
-    under("sensors[" + std::to_string(i) + "]", [&] {
+    under(indexed("sensors", i), [&] {
       requireMounts(scenario.sensors[i], scenario.vehicle);
       requireSound(scenario.sensors[i]);
     });
   }
-  if (scenario.duration && !(*scenario.duration > 0.0)) {
-    refuse("the scenario has no time", "duration", "give more than 0 s, or leave it out");
-  }
+  if (scenario.duration) requirePositive(*scenario.duration, "duration", "s");
   return scenario;
 }
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "complaints.hpp"
 #include "conveyor.hpp"
 #include "curve.hpp"
+#include "pos/core/config_checks.hpp"
 #include "quadrature.hpp"
 
 namespace pos::sim {

@@ -1,9 +1,8 @@
 #include "pos/sim/simulation.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/scenario.hpp"
 #include "sensor_streams.hpp"
 
@@ -33,7 +32,7 @@ Simulation::Simulation(const Scenario& scenario, std::shared_ptr<const map::Tunn
   impl_->start = site.run.start;
   impl_->duration = site.duration;
   for (std::size_t i = 0; i < scenario.sensors.size(); ++i) {
-    auto stream = sensorStream(scenario.sensors[i], "sensors[" + std::to_string(i) + "]", site);
+    auto stream = sensorStream(scenario.sensors[i], indexed("sensors", i), site);
     auto first = stream->next();
     impl_->sources.push_back({std::move(stream), std::move(first)});
   }
@@ -74,10 +73,7 @@ double Simulation::duration() const {
 
 TruthSampler::TruthSampler(const Simulation& simulation, double rate)
     : simulation_(&simulation), rate_(rate) {
-  if (std::isfinite(rate) && rate > 0.0) return;
-  throw ConfigError(Complaint{.what = "the truth cannot be sampled at this rate",
-                              .got = std::to_string(rate),
-                              .expected = "more than 0 Hz"});
+  requirePositive(rate, "rate", "Hz");
 }
 
 std::optional<TruthPose> TruthSampler::next() {

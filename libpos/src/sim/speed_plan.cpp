@@ -1,8 +1,9 @@
 #include "speed_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "complaints.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {

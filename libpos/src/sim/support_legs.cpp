@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 

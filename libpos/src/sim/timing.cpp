@@ -3,36 +3,59 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pos/core/error.hpp"
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {
 
 constexpr double kJitterLimit = 0.45;  // periods: ticks never change their order
 
-enum Purpose : std::uint32_t { kJitter = 0, kDrops = 1, kLatency = 2 };
+constexpr double kRounding = 1e-9;  // s, of a moment that should be the last one
+
+enum Purpose : std::uint32_t { kJitter = 0, kDrops = 6, kLatency = 7 };
+
+std::uint64_t hashed(std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  return hash;
+}
 
 }  // namespace
 
-Timing validated(Timing timing, const std::string& key) {
-  requirePositive(timing.rate, key + ".rate", "Hz");
-  requireNotNegative(timing.phase, key + ".phase", "s");
-  requireNotNegative(timing.jitter, key + ".jitter", "s");
-  requireNotNegative(timing.latency, key + ".latency", "s");
-  requireNotNegative(timing.latency_jitter, key + ".latency_jitter", "s");
-  requireFinite(timing.stamp_error, key + ".stamp_error", "s");
-  requireProbability(timing.drop_probability, key + ".drop_probability");
-  for (const TimeSpan& outage : timing.outages) requireSpan(outage, key + ".outages");
+void requireSpan(const TimeSpan& span, const std::string& key) {
+  if (span.from < span.to) return;
+  refuse("the span ends before it begins", key, std::to_string(span.from) + " to " + std::to_string(span.to),
+         "a span that ends after it begins, s");
+}
+
+Timing validated(Timing timing) {
+  requirePositive(timing.rate, "rate", "Hz");
+  requireNotNegative(timing.phase, "phase", "s");
+  requireNotNegative(timing.jitter, "jitter", "s");
+  requireNotNegative(timing.latency, "latency", "s");
+  requireNotNegative(timing.latency_jitter, "latency_jitter", "s");
+  requireFinite(timing.stamp_error, "stamp_error", "s");
+  requireShare(timing.drop_probability, "drop_probability");
+  for (std::size_t i = 0; i < timing.outages.size(); ++i) {
+    requireSpan(timing.outages[i], indexed("outages", i));
+  }
   return timing;
 }
 
+std::uint64_t streamOf(std::string_view name) {
+  return hashed(name) & ~std::uint64_t{63};
+}
+
+std::uint64_t wideStreamOf(std::string_view name) {
+  return (hashed(name) >> 6U) << 32U;
+}
+
 RandomStream randomStream(const RunSetup& run, const Timing& timing, std::uint32_t purpose) {
-  return {run.seed, (std::uint64_t{timing.stream} << 32U) | purpose};
+  return {run.seed, timing.stream + purpose};
 }
 
 Ticker::Ticker(const Timing& timing, const RunSetup& run, double duration)
-    : timing_(validated(timing, "timing")),
+    : timing_(validated(timing)),
       run_(run),
       duration_(duration),
       jitter_(randomStream(run, timing, kJitter)),
@@ -46,7 +69,7 @@ std::optional<Tick> Ticker::next() {
     t += std::clamp(jitter_.normal(0.0, timing_.jitter), -limit, limit);
   }
   t = std::max(0.0, seconds(durationFromSeconds(t)));
-  if (t > duration_) return {};
+  if (t > duration_ + kRounding) return {};
   const bool dropped = timing_.drop_probability > 0.0 && drops_.bernoulli(timing_.drop_probability);
   const bool out = std::any_of(timing_.outages.begin(), timing_.outages.end(),
                                [t](const TimeSpan& outage) { return outage.contains(t); });

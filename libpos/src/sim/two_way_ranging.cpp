@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 namespace {

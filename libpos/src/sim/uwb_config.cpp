@@ -1,6 +1,6 @@
 #include <set>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/sim/uwb_stream.hpp"
 
 namespace pos::sim {
@@ -28,7 +28,7 @@ void checkTags(const UwbConfig& config) {
 
 UwbConfig validated(UwbConfig config) {
   const std::string& key = config.sensor;
-  (void)validated(config.timing, key + ".timing");
+  requireValid(config.timing, key + ".timing");
   (void)validated(config.two_way, key + ".two_way");
   (void)validated(config.errors, key + ".errors");
   checkTags(config);

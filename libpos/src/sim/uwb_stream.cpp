@@ -4,7 +4,7 @@
 #include <cmath>
 #include <deque>
 
-#include "pos/sim/checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "radio_channel.hpp"
 #include "two_way_radios.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "complaints.hpp"
 #include "pos/core/angle.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::sim {
 

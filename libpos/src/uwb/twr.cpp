@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::uwb {
 namespace {
@@ -47,25 +47,18 @@ TwrVerdict verdictOf(const TwrRange& result, const TwrConfig& config) {
 }  // namespace
 
 TwrConfig validated(TwrConfig config) {
-  const auto require = [](bool holds, const char* what, const char* key, double got, const char* expected) {
-    if (!holds) {
-      throw ConfigError(
-          Complaint{.what = what, .key = key, .got = std::to_string(got), .expected = expected});
-    }
-  };
-  require(config.counter_bits >= 8 && config.counter_bits <= 62, "the counter's width cannot be",
-          "counter_bits", config.counter_bits, "8 to 62");
-  require(config.tick > 0.0, "a tick takes some time", "tick_s", config.tick, "> 0");
-  require(config.reply_min >= 0.0 && config.reply_min < config.reply_max, "no reply time would be accepted",
-          "reply_min_s", config.reply_min, "at least 0 and below reply_max_s");
-  require(config.reply_max <= 0.5, "reply times of this length overflow the arithmetic", "reply_max_s",
-          config.reply_max, "at most 0.5");
-  require(config.range_max > 0.0, "no range would be accepted", "range_max_m", config.range_max, "> 0");
-  require(config.propagation_speed > 0.0, "signals travel at some speed", "propagation_speed_m_per_s",
-          config.propagation_speed, "> 0");
-  for (const double sigma : config.stamp_sigma) {
-    require(sigma >= 0.0, "a jitter cannot be negative", "stamp_sigma_s", sigma, ">= 0");
+  if (config.counter_bits < 8 || config.counter_bits > 62) {
+    refuse("the counter's width cannot be", "counter_bits", std::to_string(config.counter_bits), "8 to 62");
   }
+  requirePositive(config.tick, "tick_s", "s");
+  requireNotNegative(config.reply_min, "reply_min_s", "s");
+  require(config.reply_min < config.reply_max, "reply_min_s", "below reply_max_s",
+          "no reply time would be accepted");
+  require(config.reply_max <= 0.5, "reply_max_s", "at most 0.5",
+          "reply times of this length overflow the arithmetic");
+  requirePositive(config.range_max, "range_max_m", "m");
+  requirePositive(config.propagation_speed, "propagation_speed_m_per_s", "m/s");
+  for (const double sigma : config.stamp_sigma) requireNotNegative(sigma, "stamp_sigma_s", "s");
   return config;
 }
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "mrpt_inputs.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/estimation/odometry_sigma.hpp"
 
 namespace pos::yardstick {
@@ -36,10 +36,9 @@ class OwnRandomNumbers {
   CRandomGenerator& own_;
 };
 
+/// As pos::require, said of the whole filter.
 void require(bool holds, const char* key, const char* expected) {
-  if (holds) return;
-  throw ConfigError(
-      Complaint{.what = "MRPT's particle filter cannot be set up", .key = key, .expected = expected});
+  pos::require(holds, key, expected, "MRPT's particle filter cannot be set up");
 }
 
 mrpt::bayes::CParticleFilter particleFilter(const estimation::MrptMclConfig& config) {

@@ -50,6 +50,14 @@ TEST(PerformanceTable, MediansBecomeRowsWithTheirFactorAndTarget) {
             "| memory | 30.0 kB |\n");
 }
 
+TEST(PerformanceTable, FiguresWithoutAYardstickStandAlone) {
+  const Topic topic{.title = "Memory",
+                    .yardstick = "",
+                    .comparisons = {},
+                    .figures = {{"memory", "fast", "memory_growth_kb", "kB"}}};
+  EXPECT_EQ(tables(sample(), {topic}), "### Memory\n\n| | |\n| --- | --- |\n| memory | 30.0 kB |\n");
+}
+
 TEST(PerformanceTable, MachineIsToldWithoutItsName) {
   EXPECT_EQ(machineLine(sample()), "2 CPUs at 4500 MHz, load average 0.25 at the start, 2026-03-01");
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "pos/core/angle.hpp"
 #include "pos/io/grid_io.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/scenario_yaml.hpp"
@@ -154,14 +155,48 @@ TEST(ScenarioFacts, TheQuarterTurnHasFourAnchorsOrMoreInSightOfEachTag) {
   EXPECT_NEAR(simulation.truthAt(20.0).p_map.x(), 7.0, 5e-4);
 }
 
-class VehicleFile : public ::testing::TestWithParam<fs::path> {};
+/// Curves no tighter than the vehicle steers, at every 0.1 s of the motion.
+TEST_P(ScenarioFile, TheVehicleCanSteerTheWholeWay) {
+  if (scenario_.vehicle.max_steer <= 0.0) GTEST_SKIP() << "nothing steers";
+  const std::unique_ptr<const sim::Motion> motion = sim::makeMotion(scenario_.motion);
+  double sharpest = 0.0;
+  for (double t = 0.05; t < motion->duration(); t += 0.1) {
+    const sim::Kinematics body = motion->at(t);
+    const double speed = body.v_map.norm();
+    if (speed < 0.01) continue;
+    sharpest = std::max(sharpest, std::abs(steerAngle(scenario_.vehicle, body.omega_body.z() / speed)));
+  }
+  EXPECT_LE(degrees(sharpest), degrees(scenario_.vehicle.max_steer) + 1e-6);
+}
 
-TEST_P(VehicleFile, IsAVehicleThatAScenarioCanName) {
-  const std::string text = "schema: 1\nname: try\nvehicle_file: " + GetParam().string() +
+sim::Vehicle vehicleOf(const fs::path& file) {
+  const std::string text = "schema: 1\nname: try\nvehicle_file: " + file.string() +
                            "\nmotion: {type: segments, segments: [{duration_s: 1}]}\n"
                            "sensors: [{name: imu, type: imu, mount: imu}]\n";
-  const sim::Scenario scenario = scenarioFrom(parseYaml(text, "/elsewhere/run.yaml"), {});
-  EXPECT_EQ(scenario.vehicle.name, GetParam().stem().string());
+  return scenarioFrom(parseYaml(text, "/elsewhere/run.yaml"), {}).vehicle;
+}
+
+class VehicleFile : public ::testing::TestWithParam<fs::path> {};
+
+TEST_P(VehicleFile, IsAVehicleThatAScenarioCanNameAndItsMountsSitOnIt) {
+  const sim::Vehicle vehicle = vehicleOf(GetParam());
+  EXPECT_EQ(vehicle.name, GetParam().stem().string());
+  for (const sim::Mount& mount : vehicle.mounts) {
+    EXPECT_LE(std::abs(mount.p_body.x() - vehicle.centre_x), 0.5 * vehicle.length) << mount.name;
+    EXPECT_LE(std::abs(mount.p_body.y()), 0.5 * vehicle.width) << mount.name;
+  }
+}
+
+TEST(VehicleFacts, VehiclesHaveThePapersFigures) {
+  const fs::path folder = fs::path(POS_SOURCE_DIR) / "configs/vehicles";
+  const sim::Vehicle wlr5a = vehicleOf(folder / "wlr5a.yaml");
+  EXPECT_NEAR(wlr5a.rear_track + wlr5a.wheel_width, wlr5a.width, 1e-12);
+  EXPECT_NEAR((wlr5a.mount("tag_left").p_body - wlr5a.mount("tag_right").p_body).y(), 0.75, 1e-15);
+  const sim::Vehicle mine = vehicleOf(folder / "intelligent_mine_1.yaml");
+  EXPECT_NEAR(mine.max_speed, 11.11, 5e-3);
+  EXPECT_EQ(mine.width, 1.245);
+  // The mock shaft's corners of 1.2 m on a wheelbase of 1.2 m: atan(1) = 45 degrees.
+  EXPECT_NEAR(mine.max_steer, steerAngle(mine, 1.0 / 1.2), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, VehicleFile, ::testing::ValuesIn(files("configs/vehicles")), nameOf);

@@ -66,7 +66,7 @@ TEST(TunnelMap, BadSurveySigmaIsRefused) {
        {-0.01, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     TunnelMap map = threeAnchors();
     map.anchors[0].survey_sigma = bad;
-    EXPECT_EQ(refusal(map).what, "anchor has a bad survey sigma");
+    EXPECT_EQ(refusal(map).what, "anchor 7: the value must not be negative");
     EXPECT_EQ(refusal(map).key, "anchors[0].survey_sigma_m");
   }
 }

@@ -16,11 +16,10 @@ std::shared_ptr<const Motion> rest(double duration) {
   return makeMotion(SegmentMotionConfig{.segments = {papers::wait(duration)}});
 }
 
-std::vector<Delivery> deliveries(const ImuModel& model, const std::shared_ptr<const Motion>& motion,
+std::vector<Delivery> deliveries(ImuModel model, const std::shared_ptr<const Motion>& motion,
                                  std::uint64_t seed) {
-  const StreamContext context{
-      .motion = motion, .seed = {seed, streamOf(model.sensor)}, .duration = motion->duration()};
-  const auto stream = makeImuStream(model, std::make_shared<Earth>(EarthConfig{}), context);
+  model.timing.stream = streamOf(model.sensor);
+  const auto stream = makeImuStream(model, std::make_shared<Earth>(EarthConfig{}), motion, {.seed = seed});
   std::vector<Delivery> all;
   while (auto delivery = stream->next()) all.push_back(*std::move(delivery));
   return all;
@@ -210,8 +209,9 @@ TEST(ImuErrors, AStreamDoesNotKnowWhoElseRuns) {
   const auto alone = deliveries({.errors = automotiveMems()}, motion, 5);
   const auto earth = std::make_shared<Earth>(EarthConfig{});
   const auto streamNamed = [&](const std::string& name) {
-    const StreamContext context{.motion = motion, .seed = {5, streamOf(name)}, .duration = 2.0};
-    return makeImuStream({.sensor = name, .errors = automotiveMems()}, earth, context);
+    const Timing timing{.rate = 100.0, .stream = streamOf(name)};
+    return makeImuStream({.sensor = name, .timing = timing, .errors = automotiveMems()}, earth, motion,
+                         {.seed = 5});
   };
   const auto first = streamNamed("imu");
   const auto second = streamNamed("imu2");
@@ -225,7 +225,7 @@ TEST(ImuErrors, LostSamplesAndOneMoreErrorLeaveTheOtherNumbersAsTheyWere) {
   ImuModel model = withGyro({.noise_density = 1e-3}, 100.0);
   const auto motion = rest(2);
   const auto all = deliveries(model, motion, 5);
-  model.timing.loss_probability = 0.3;
+  model.timing.drop_probability = 0.3;
   model.timing.outages = {{1.0, 1.2}};
   model.errors.accelerometer = {.bias_sigma = 0.1, .noise_density = 1e-2};
   const auto some = deliveries(model, motion, 5);
@@ -239,6 +239,28 @@ TEST(ImuErrors, LostSamplesAndOneMoreErrorLeaveTheOtherNumbersAsTheyWere) {
     }
   }
   EXPECT_EQ(j, some.size());
+}
+
+TEST(ImuErrors, SamplesThatStrayFromTheirBeatStillTellAllOfTheMotion) {
+  ImuModel model{.kind = ImuSample::Kind::Increments, .timing = {.rate = 50.0, .jitter = 0.002}};
+  double velocity = 0.0;
+  double time = 0.0;
+  double last = 0.0;
+  bool uneven = false;
+  for (const Delivery& delivery : deliveries(model, rest(10), 3)) {
+    const ImuSample& sample = sampleOf(delivery);
+    EXPECT_NEAR(sample.linear.z(), kG * seconds(*sample.interval), 1e-7);
+    uneven = uneven || std::abs(seconds(*sample.interval) - 0.02) > 1e-3;
+    velocity += sample.linear.z();
+    time += seconds(*sample.interval);
+    last = secondsSinceOrigin(delivery.measurement.stamp);
+  }
+  EXPECT_TRUE(uneven);
+  EXPECT_NEAR(velocity, kG * time, 1e-9);
+  // Intervals touch each other. The first is that of the first tick later than one interval: 0.04 s + 0.45 *
+  // 0.02 s at most.
+  EXPECT_GE(last - time, -1e-9);
+  EXPECT_LE(last - time, 0.029 + 1e-9);
 }
 
 TEST(ImuErrors, PresetsAreThoseOfThePapers) {

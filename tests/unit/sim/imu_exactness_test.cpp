@@ -15,12 +15,12 @@ namespace {
 std::vector<oracle::Sample> samplesOf(const std::shared_ptr<const Motion>& motion, const EarthConfig& earth,
                                       double rate, const Eigen::Vector3d& p_body, double duration) {
   const ImuModel model{.kind = ImuSample::Kind::Increments, .timing = {.rate = rate}, .p_body = p_body};
-  const auto stream =
-      makeImuStream(model, std::make_shared<Earth>(earth), {.motion = motion, .duration = duration});
+  const auto stream = makeImuStream(model, std::make_shared<Earth>(earth), motion, {});
   std::vector<oracle::Sample> samples;
   while (const auto delivery = stream->next()) {
     const auto& reading = std::get<ImuSample>(delivery->measurement.reading);
     const double to = static_cast<double>(samples.size() + 1) / rate;
+    if (to > duration + 1e-9) break;
     EXPECT_EQ(delivery->measurement.stamp, stampFromSeconds(to));
     samples.push_back({static_cast<double>(samples.size()) / rate, to, reading.angular, reading.linear});
   }

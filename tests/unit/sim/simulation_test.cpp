@@ -7,6 +7,7 @@
 
 #include "pos/core/error.hpp"
 #include "pos/sim/scenario.hpp"
+#include "support/sample_vehicles.hpp"
 
 namespace pos::sim {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 /// 1 m/s along x for 10 s, with a quick and a slow late sensor.
 Scenario scenario() {
   Scenario scenario;
-  scenario.vehicle = wlr5a();
+  scenario.vehicle = samples::fourWheelSteered();
   scenario.motion = SegmentMotionConfig{.start = {.speed = 1.0}, .segments = {{.drive = {.duration = 10.0}}}};
   ImuModel imu;
   imu.errors = automotiveMems();
@@ -91,7 +92,8 @@ TEST(Simulation, ASensorDoesNotDependOnTheOthersAndEachSeedIsItsOwn) {
 
 TEST(Simulation, MountsOfTheVehicleCarryTheSensors) {
   const auto ranges = of(all(Simulation(scenario(), anchors(), 1)), "uwb");
-  EXPECT_EQ(std::get<BeaconRange>(ranges[0].measurement.reading).tag_body, wlr5a().mount("tag_left").p_body);
+  EXPECT_EQ(std::get<BeaconRange>(ranges[0].measurement.reading).tag_body,
+            samples::fourWheelSteered().mount("tag_left").p_body);
 }
 
 TEST(Simulation, TruthIsSampledAtARateWithBothEnds) {
@@ -162,7 +164,7 @@ TEST(Simulation, WhatMapAndSensorsCannotServeIsRefusedByKey) {
 
 TEST(Simulation, SupportsStandBesideTheConveyorsLineUntilTheShearerHasPassed) {
   Scenario face;
-  face.vehicle = shearer();
+  face.vehicle = samples::guided();
   face.motion = ShearerConfig{.passes = 2};
   SupportLegSensor legs;
   legs.config.scanner.sigma_range = 0.0;

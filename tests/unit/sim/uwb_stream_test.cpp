@@ -252,7 +252,7 @@ TEST(UwbStream, SameSeedSameBytesWhoeverElseRuns) {
   EXPECT_NE(first, scene::spelled(run(config, motion, {.seed = 2})));
 
   UwbConfig other = config;
-  other.timing.stream = 5;
+  other.timing.stream = wideStreamOf("other");
   UwbStream a(config, kFour, motion, {.seed = 1});
   UwbStream b(other, kFour, motion, {.seed = 1});
   std::vector<Delivery> from_a;

@@ -4,34 +4,26 @@
 
 #include <cmath>
 
+#include "support/sample_vehicles.hpp"
 #include "unit/sim/motion_checks.hpp"
 #include "unit/sim/paper_motions.hpp"
 #include "unit/sim/refusals.hpp"
 
 namespace pos::sim {
 
-TEST(Vehicles, PresetsMakeSenseAndHaveThePapersFigures) {
-  for (const Vehicle& vehicle : vehiclePresets()) {
+TEST(Vehicles, EveryKindOfSteeringIsAccepted) {
+  for (const Vehicle& vehicle : {samples::frontSteered(), samples::fourWheelSteered(),
+                                 samples::differential(), samples::articulated(), samples::guided()}) {
     EXPECT_EQ(refusedKey([&] { return validated(vehicle); }), "accepted") << vehicle.name;
-    EXPECT_FALSE(vehicle.mount("imu").name.empty());
-    for (const Mount& mount : vehicle.mounts) {
-      EXPECT_LE(std::abs(mount.p_body.x() - vehicle.centre_x), 0.5 * vehicle.length)
-          << vehicle.name << ' ' << mount.name;
-      EXPECT_LE(std::abs(mount.p_body.y()), 0.5 * vehicle.width) << vehicle.name << ' ' << mount.name;
-    }
   }
-  EXPECT_NEAR(wlr5a().rear_track + wlr5a().wheel_width, wlr5a().width, 1e-12);
-  EXPECT_NEAR((wlr5a().mount("tag_left").p_body - wlr5a().mount("tag_right").p_body).y(), 0.75, 1e-15);
-  EXPECT_NEAR(intelligentMineI().max_speed, 11.11, 5e-3);
-  EXPECT_EQ(intelligentMineI().width, 1.245);
 }
 
 TEST(Vehicles, AMissingMountIsNamedWithThoseThereAre) {
-  EXPECT_EQ(refusedKey([] { return wlr5a().mount("gnss"); }), "mounts");
-  Vehicle twice = wlr5a();
+  EXPECT_EQ(refusedKey([] { return samples::fourWheelSteered().mount("gnss"); }), "mounts");
+  Vehicle twice = samples::fourWheelSteered();
   twice.mounts.push_back(twice.mounts.front());
   EXPECT_EQ(refusedKey([&] { return validated(twice); }), "mounts");
-  Vehicle none = wlr5a();
+  Vehicle none = samples::fourWheelSteered();
   none.wheel_radius = 0.0;
   EXPECT_EQ(refusedKey([&] { return validated(none); }), "wheel_radius");
 }
@@ -48,7 +40,7 @@ TEST(Vehicles, VelocityOfAPointIsTheDerivativeOfItsPosition) {
 
 TEST(Vehicles, OnALeftBendTheRightWheelIsFaster) {
   const auto motion = makeMotion(papers::circle());
-  const Vehicle car = ackermannCar();
+  const Vehicle car = samples::frontSteered();
   const WheelPair wheels = wheelGroundSpeeds(car, motion->at(30.0));
   EXPECT_NEAR(wheels.left, 0.1 * (20.0 - 0.85), 1e-12);
   EXPECT_NEAR(wheels.right, 0.1 * (20.0 + 0.85), 1e-12);
@@ -58,18 +50,18 @@ TEST(Vehicles, SteeredWheelsRollTheWayTheirPointsGo) {
   const auto motion = makeMotion(papers::laneShift());
   const Kinematics body = motion->at(19.5);  // radius 2.46 m to the left
   const double radius = body.v_map.norm() / body.omega_body.z();
-  const WheelPair wheels = wheelGroundSpeeds(wlr5a(), body);
+  const WheelPair wheels = wheelGroundSpeeds(samples::fourWheelSteered(), body);
   EXPECT_NEAR(wheels.left, body.omega_body.z() * std::hypot(radius - 0.95, 1.01), 1e-12);
   EXPECT_NEAR(wheels.right, body.omega_body.z() * std::hypot(radius + 0.95, 1.01), 1e-12);
   // The specification: four-wheel steer angle about 22 degrees.
-  EXPECT_NEAR(degrees(steerAngle(wlr5a(), 1.0 / radius)), 22.0, 0.5);
+  EXPECT_NEAR(degrees(steerAngle(samples::fourWheelSteered(), 1.0 / radius)), 22.0, 0.5);
 }
 
 TEST(Vehicles, SteerAnglesFollowTheGeometryOfTheirAxles) {
-  EXPECT_NEAR(steerAngle(ackermannCar(), 1.0 / 3.0), 0.25 * kPi, 1e-12);
-  EXPECT_NEAR(steerAngle(ackermannCar(), -1.0 / 3.0), -0.25 * kPi, 1e-12);
-  EXPECT_NEAR(std::tan(0.5 * steerAngle(articulatedLoader(), 0.2)), 0.34, 1e-12);
-  EXPECT_EQ(steerAngle(differentialCar(), 5.0), 0.0);
+  EXPECT_NEAR(steerAngle(samples::frontSteered(), 1.0 / 3.0), 0.25 * kPi, 1e-12);
+  EXPECT_NEAR(steerAngle(samples::frontSteered(), -1.0 / 3.0), -0.25 * kPi, 1e-12);
+  EXPECT_NEAR(std::tan(0.5 * steerAngle(samples::articulated(), 0.2)), 0.34, 1e-12);
+  EXPECT_EQ(steerAngle(samples::differential(), 5.0), 0.0);
 }
 
 }  // namespace pos::sim

@@ -8,7 +8,7 @@
 
 #include "pos/sim/motion.hpp"
 #include "pos/sim/sensor.hpp"
-#include "pos/sim/sensor_clock.hpp"
+#include "pos/sim/timing.hpp"
 #include "pos/sim/vehicle.hpp"
 
 namespace pos::sim {
@@ -21,7 +21,7 @@ struct SlipEvent {
     Free     ///< rim speed = speed + amplitude * sin(2 pi frequency (t - from)), whatever the ground does
   };
   enum class Side { Both, Left, Right };
-  TimeWindow window = {};
+  TimeSpan window = {};
   Kind kind = Kind::Ratio;
   Side side = Side::Both;
   double ratio = 0.0;      ///< -, Ratio
@@ -40,7 +40,7 @@ struct EncoderModel {
   };
   std::string sensor = "wheels";
   Output output = Output::Ticks;
-  SensorTiming timing = {.rate = 50.0};
+  Timing timing = {.rate = 50.0};
   double ticks_per_turn =
       4000.0;             ///< counts per turn of the wheel (lines x 4); 0: no rounding (not for Ticks)
   int counter_bits = 32;  ///< the counter runs 0 .. 2^bits - 1 and wraps; 1..62
@@ -65,9 +65,9 @@ EncoderModel validated(const EncoderModel& model);
 WheelPair rimTravel(const Motion& motion, const Vehicle& vehicle, const std::vector<SlipEvent>& slips,
                     double from, double to);
 
-/// The stream. The first reading is at the phase; Speeds and Increment begin one interval later. Ticks count
-/// from 0 at the start of the scenario. Memory constant.
+/// The stream, as long as the motion. The first reading is at the phase; Speeds and Increment begin one
+/// interval later. Ticks count from 0 at the start of the scenario. Memory constant.
 std::unique_ptr<SensorStream> makeEncoderStream(const EncoderModel& model, const Vehicle& vehicle,
-                                                const StreamContext& context);
+                                                std::shared_ptr<const Motion> motion, const RunSetup& run);
 
 }  // namespace pos::sim

@@ -8,7 +8,7 @@
 #include "pos/sim/earth.hpp"
 #include "pos/sim/motion.hpp"
 #include "pos/sim/sensor.hpp"
-#include "pos/sim/sensor_clock.hpp"
+#include "pos/sim/timing.hpp"
 
 namespace pos::sim {
 
@@ -48,7 +48,7 @@ navigationGrade();  ///< P2 Table 2: +0.05 deg/h, 0.01 deg/sqrt(h); +50 ug, 10 u
 struct ImuModel {
   std::string sensor = "imu";
   ImuSample::Kind kind = ImuSample::Kind::Rates;  ///< Rates are averages over the interval
-  SensorTiming timing = {};
+  Timing timing = {.rate = 100.0};
   Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< m, where it sits; its axes are the body's
   ImuErrors errors = {};
 
@@ -68,9 +68,10 @@ struct InertialIncrement {
 InertialIncrement inertialIncrement(const Motion& motion, const Earth& earth, const Eigen::Vector3d& p_body,
                                     double from, double to);
 
-/// The stream. A sample is stamped at the end of its interval; the first is the first whose interval lies
-/// after the start. Memory constant, about 1 us a sample.
+/// The stream, as long as the motion. A sample is stamped at the end of its interval, which reaches back to
+/// the sample before it; the first is the first whose interval lies after the start. Memory constant, about 1
+/// us a sample.
 std::unique_ptr<SensorStream> makeImuStream(const ImuModel& model, std::shared_ptr<const Earth> earth,
-                                            const StreamContext& context);
+                                            std::shared_ptr<const Motion> motion, const RunSetup& run);
 
 }  // namespace pos::sim

@@ -1,11 +1,13 @@
 #pragma once
-/// When a simulated sensor measures, and what the way to the recorder does to its measurements.
+/// When a simulated sensor measures, what the way to the recorder does to its measurements, and where its
+/// random numbers come from. Common to all sensors.
 ///
 /// Times are seconds since the scenario's start.
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pos/core/random.hpp"
@@ -13,13 +15,17 @@
 
 namespace pos::sim {
 
-/// The half-open span [from, to), s.
+/// The half-open span [from, to), s since the scenario's start.
 struct TimeSpan {
   double from = 0.0;
   double to = 0.0;
 
   bool contains(double t) const { return from <= t && t < to; }
+  bool operator==(const TimeSpan&) const = default;
 };
+
+/// Throws ConfigError naming `key` unless the span ends after it begins.
+void requireSpan(const TimeSpan& span, const std::string& key);
 
 /// What all sensors of one run share.
 struct RunSetup {
@@ -38,13 +44,21 @@ struct Timing {
   double stamp_error = 0.0;            ///< s, stamp minus true moment: 0.2 = stamps 0.2 s late
   std::vector<TimeSpan> outages = {};  ///< nothing is delivered then
   double drop_probability = 0.0;       ///< of any one tick, outside outages
-  std::uint32_t stream = 0;            ///< random stream; every sensor of a scenario has its own
+  std::uint64_t stream = 0;  ///< number of its first random sequence; every sensor of a scenario has its own
+
+  bool operator==(const Timing&) const = default;
 };
 
-/// `timing` itself; throws ConfigError naming `key` and the first field that cannot be.
-Timing validated(Timing timing, const std::string& key);
+/// `timing` itself; throws ConfigError naming the first field that cannot be.
+Timing validated(Timing timing);
 
-/// The random numbers of one purpose of one sensor. Purposes of a sensor, sensors and seeds do not overlap.
+/// A sensor's `stream` from its name (64-bit FNV-1a), so that sensors do not depend on their order.
+/// The first leaves room for 64 random sequences, the wide one for 2^32, as radios with many links need.
+std::uint64_t streamOf(std::string_view name);
+std::uint64_t wideStreamOf(std::string_view name);
+
+/// The random numbers of one purpose of one sensor. Purposes of a sensor, sensors and seeds do not overlap,
+/// so that switching one error on leaves the numbers of the others as they were.
 RandomStream randomStream(const RunSetup& run, const Timing& timing, std::uint32_t purpose);
 
 /// A moment of measuring.
@@ -54,8 +68,9 @@ struct Tick {
   bool lost = false;       ///< fell into an outage or was dropped
 };
 
-/// Makes the moments of measuring and stamps what was measured. Purposes 0..2 of randomStream are its own;
-/// sensors use those from kFirstPurpose up. Outages do not shift the random numbers of later ticks.
+/// Makes the moments of measuring and stamps what was measured. Moment k is computed from k, so that nothing
+/// adds up over hours. Purposes 0, 6 and 7 of randomStream are its own; sensors use 1 to 5 and those from
+/// kFirstPurpose up. Outages do not shift the random numbers of later ticks.
 class Ticker {
  public:
   static constexpr std::uint32_t kFirstPurpose = 8;

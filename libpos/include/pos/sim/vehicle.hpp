@@ -53,16 +53,6 @@ struct Vehicle {
 /// The vehicle itself when its figures make sense; throws ConfigError with the key.
 Vehicle validated(const Vehicle& vehicle);
 
-/// Presets with the papers' figures (docs/math/simulator_truth.md says which are inferred).
-Vehicle ackermannCar();       ///< a pick-up sized trackless vehicle
-Vehicle wlr5a();              ///< four-wheel steer chassis of Yuan et al. 2022
-Vehicle differentialCar();    ///< laboratory car of Jiang et al. 2024
-Vehicle intelligentMineI();   ///< vehicle of J. China Coal Soc. 2024, Ackermann
-Vehicle articulatedLoader();  ///< LHD
-Vehicle shearer();            ///< on its conveyor, without wheels
-/// All of them, for looking one up by name.
-std::vector<Vehicle> vehiclePresets();
-
 /// Velocity of a point of the body, m/s in body axes.
 Eigen::Vector3d pointVelocity(const Kinematics& body, const Eigen::Vector3d& p_body);
 /// Where a point of the body is, m in the map.
