@@ -84,7 +84,8 @@ OptionTable<DualUwbConfig> dualUwbOptions() {
       .table("link_bias", &Config::link_bias, calibrationOptions("link_bias", "m", between(-100, 100), 100),
              "What a link reads too long, one state for each tag and anchor (filters).")
       .text("range_bias_table", &Config::range_bias_table,
-            "File written by pos calibrate ranges; it stands in the place of range_offset_m, range_biases and tag_shifts.")
+            "File written by pos calibrate ranges; it stands in the place of range_offset_m, range_biases "
+            "and tag_shifts.")
       .list("range_biases", &Config::range_biases, linkBiasOptions(), "What single links read too long.")
       .list("tag_shifts", &Config::tag_shifts, tagShiftOptions(),
             "How far the tags' electrical places lie from their mounts.")

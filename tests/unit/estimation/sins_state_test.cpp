@@ -119,6 +119,80 @@ TEST(SinsDrModels, WheelRowsOfFAreTheDerivativesOfRolling) {
   }
 }
 
+/// A covariance whose states differ in size as a filter's do.
+Belief<SinsDrState> believed(const SinsDrState& x, unsigned seed) {
+  Vector<21> sigma;
+  sigma << Vector<3>::Constant(0.01), Vector<3>::Constant(0.1), Vector<3>::Constant(0.5),
+      Vector<3>::Constant(1e-3), Vector<3>::Constant(0.02), Vector<3>::Constant(0.6), 0.01, 0.005, 0.008;
+  std::srand(seed);
+  const Matrix<21, 21> A = Matrix<21, 21>::Random();
+  const Matrix<21, 21> C = A * A.transpose() / 7.0;
+  return {x, sigma.asDiagonal() * C * sigma.asDiagonal()};
+}
+
+TEST(SinsDrModels, CarryingByBlocksEqualsTheFullMatrices) {
+  SinsDrConfig config;
+  config.boresight_sigma = 0.01;
+  for (const SinsDrState& x : sinsSamples()) {
+    SinsDrInput in;
+    in.force_b = {0.4, -0.7, 9.9};
+    in.wheel_speed = 2.5;
+    in.wheel_v_n = 2.5 * (x.nav.q_n_b * x.rollingDirection());
+    in.wheel_interval = 0.02;
+    for (const double dt : {0.0, 0.005, 0.05}) {
+      const Belief<SinsDrState> before = believed(x, 3);
+      const auto step = sinsDrStep(config, x, in, dt);
+      const Matrix<21, 21> dense = step.F * before.covariance * step.F.transpose() + step.Qd;
+      Belief<SinsDrState> blocks = before;
+      propagate(blocks, config, in, dt);
+      const Vector<21> sigma = dense.diagonal().cwiseSqrt();
+      const double off =
+          ((blocks.covariance - dense).array() / (sigma * sigma.transpose()).array()).abs().maxCoeff();
+      EXPECT_LT(off, x.earth.isFlat() ? 1e-12 : 2e-6 * (dt / 0.05) + 1e-12) << dt;
+      EXPECT_EQ(blocks.covariance, Matrix<21, 21>(blocks.covariance.transpose()));
+    }
+  }
+}
+
+TEST(SinsDrModels, TakingTheDifferenceEqualsTheGeneralCorrection) {
+  for (const SinsDrState& x : sinsSamples()) {
+    Belief<SinsDrState> general = believed(x, 5);
+    Belief<SinsDrState> special = general;
+    const Matrix<3, 3> R = 4e-4 * Matrix<3, 3>::Identity();
+    const auto a = filters::correct(general, positionDifference(x, 0.007), R);
+    const auto b = correctDifference(special, 0.007, R);
+    EXPECT_EQ(a.verdict, b.verdict);
+    EXPECT_NEAR(a.nis, b.nis, 1e-9 * a.nis);
+    EXPECT_TRUE(a.S.isApprox(b.S, 1e-12));
+    // Rounding of longitudes (2e-16 rad is 1e-9 m) on the ellipsoid.
+    EXPECT_LT(minus(general.mean, special.mean).cwiseAbs().maxCoeff(), x.earth.isFlat() ? 1e-12 : 1e-8);
+    EXPECT_TRUE(general.covariance.isApprox(special.covariance, 1e-9));
+  }
+}
+
+TEST(SinsDrModels, CovarianceStaysSymmetricAndPositiveForAHundredThousandSteps) {
+  SinsDrConfig config;
+  Belief<SinsDrState> belief = believed(sinsSample(ins::Earth::flat(), 0.7, 0.1), 7);
+  reanchor(belief);
+  SinsDrInput in;
+  in.wheel_speed = 2.5;
+  in.wheel_interval = 0.02;
+  const Matrix<3, 3> R = 1e-4 * Matrix<3, 3>::Identity();
+  for (int i = 0; i < 100000; ++i) {
+    const double phase = 1e-3 * i;
+    in.force_b = {std::sin(phase), std::cos(2.0 * phase), 9.8};
+    in.wheel_v_n = 2.5 * Eigen::Vector3d(std::cos(phase), std::sin(phase), 0.1);
+    propagate(belief, config, in, 0.05);
+    if (i % 2 == 0) correctDifference(belief, 0.0, R);
+  }
+  const Matrix<21, 21>& P = belief.covariance;
+  EXPECT_EQ(P, Matrix<21, 21>(P.transpose()));
+  const Vector<21> scale = P.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
+  const Matrix<21, 21> correlation = scale.asDiagonal() * P * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix<21, 21>> eigen(correlation);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9);
+}
+
 TEST(SinsDrModels, ReanchoringMakesTheDifferenceKnownAndKeepsTheRest) {
   const Matrix<21, 21> A = Matrix<21, 21>::Random();
   Belief<SinsDrState> belief(sinsSample(ins::Earth::flat(), 0.4, 0.1), A * A.transpose());
