@@ -111,11 +111,14 @@ SlipEvidence SinsDr::evidence(Stamp stamp, double difference_nis) const {
   const bool turns_agree = config_.odometer.track <= 0.0 ||
                            std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate;
   e.velocities_agree = nis < chiSquareQuantile(config_.slip.release_confidence, 3.0) && turns_agree;
-  if (!last_second_.empty()) {
-    const Speeds& before = last_second_.front();
-    const Eigen::Vector3d change = (in.wheel_v_n - before.wheels) - (belief_.mean.nav.v_n - before.inertial);
-    e.wheels_steady = seconds(stamp - before.stamp) > 0.9 && change.norm() < kSteadyDifference && turns_agree;
-  }
+  // Steady throughout: wheels that shake agree with the accelerometers now and then by chance.
+  e.wheels_steady = turns_agree && !last_second_.empty() &&
+                    seconds(stamp - last_second_.front().stamp) > 0.9 &&
+                    std::all_of(last_second_.begin(), last_second_.end(), [&](const Speeds& before) {
+                      const Eigen::Vector3d wheels = in.wheel_v_n - before.wheels;
+                      return (wheels - (belief_.mean.nav.v_n - before.inertial)).norm() < kSteadyDifference;
+                    });
+  e.standing = config_.slip.standstill_updates && quiet();
   const double variance = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
   e.position_sigma = std::sqrt(std::max(0.0, variance - variance_when_isolated_));
   return e;

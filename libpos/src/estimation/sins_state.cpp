@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pos/filters/wide.hpp"
 #include "pos/ins/block_transition.hpp"
 
 namespace pos::estimation {
@@ -51,6 +52,20 @@ SinsDrNoise noiseOver(const SinsDrConfig& config, const SinsDrState& x, const Si
 void addNoise(Matrix<21, 21>& P, const SinsDrNoise& noise) {
   P.diagonal() += noise.diagonal;
   P.block<3, 3>(kWheelPosition, kWheelPosition) += noise.wheels;
+}
+
+/// P <- P - W W' for 21 x 21 and 21 x 3, column after column; one half, then the other.
+POS_WIDE void takeOff(double* __restrict__ P, const double* __restrict__ W) {
+  constexpr int n = 21;
+  for (int j = 0; j < n; ++j) {
+    const double a = W[j];
+    const double b = W[n + j];
+    const double c = W[2 * n + j];
+    for (int i = j; i < n; ++i) P[n * j + i] -= W[i] * a + W[n + i] * b + W[2 * n + i] * c;
+  }
+  for (int j = 1; j < n; ++j) {
+    for (int i = 0; i < j; ++i) P[n * j + i] = P[n * i + j];
+  }
 }
 
 }  // namespace
@@ -193,12 +208,14 @@ filters::Correction<3> correctDifference(Belief<SinsDrState>& belief, double age
   }
   const Vector<3> whitened = S_factor.matrixL().solve(result.nu);
   result.nis = whitened.squaredNorm();
-  const Matrix<3, 21> W = S_factor.matrixL().solve(G.transpose());  // rows
-  belief.mean = plus(belief.mean, Tangent<SinsDrState>(W.transpose() * whitened));
-  for (int j = 0; j < 21; ++j) {
-    for (int i = j; i < 21; ++i) P(i, j) -= W(0, i) * W(0, j) + W(1, i) * W(1, j) + W(2, i) * W(2, j);
-    for (int i = j + 1; i < 21; ++i) P(j, i) = P(i, j);
-  }
+  // W = G L'^-1, column by column.
+  const Matrix<3, 3>& L = S_factor.matrixLLT();
+  Matrix<21, 3> W;
+  W.col(0) = G.col(0) / L(0, 0);
+  W.col(1) = (G.col(1) - L(1, 0) * W.col(0)) / L(1, 1);
+  W.col(2) = (G.col(2) - L(2, 0) * W.col(0) - L(2, 1) * W.col(1)) / L(2, 2);
+  belief.mean = plus(belief.mean, Tangent<SinsDrState>(W * whitened));
+  takeOff(P.data(), W.data());
   return result;
 }
 
