@@ -90,7 +90,21 @@ std::vector<Subject> subjects() {
   SinsDrConfig sins;  // the run starts in motion: it has to level itself on the way
   sins.start = startAtTruth(StartMode::Known);
   sins.odometer.track = 1.0;
+  DeadReckoningConfig encoders = dead_reckoning;
+  encoders.variant = DeadReckoningConfig::Variant::Encoders;
+  encoders.odometer.track = 1.0;
+  DeadReckoningConfig attitude = encoders;
+  attitude.variant = DeadReckoningConfig::Variant::EncodersAttitude;
+  DeadReckoningConfig ekf_heading = encoders;
+  ekf_heading.variant = DeadReckoningConfig::Variant::EkfHeading;
+  DeadReckoningConfig ekf_states = ekf_heading;
+  ekf_states.heading.yaw_bias = {0.0, 0.001, 0.001};
+  ekf_states.heading.track_error = {0.0, 0.02, 0.0};
   return {{"sins_dr", sins, false, false, false, true},
+          {"dead_reckoning_encoders", encoders},
+          {"dead_reckoning_encoders_attitude", attitude, false, false, false, true},
+          {"dead_reckoning_ekf_heading", ekf_heading, false, false, false, true},
+          {"dead_reckoning_ekf_heading_states", ekf_states, false, false, false, true},
           {"dual_uwb_filter", dual, false, true},
           {"dual_uwb_filter_known", dual_known, false, true},
           {"dual_uwb_filter_biases", dual_biases, false, true},

@@ -16,15 +16,18 @@ TEST_P(SimulatedRuns, KeepsItsFigures) {
   expectFigures(run, {replayed(bench_, {source("configs/" + run + ".yaml").string()})});
 }
 
-INSTANTIATE_TEST_SUITE_P(Configs, SimulatedRuns,
-                         ::testing::Values("simulation/circle", "uwb_demo/campaign",
-                                           "experiments/double_lane_baseline",
-                                           "experiments/encoders_sins/slip"),
-                         [](const auto& named) {
-                           std::string name = named.param;
-                           for (char& c : name) c = c == '/' ? '_' : c;
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Configs, SimulatedRuns,
+    ::testing::Values("simulation/circle", "uwb_demo/campaign", "experiments/double_lane_baseline",
+                      "experiments/encoders_sins/slip", "experiments/encoders_sins/heading",
+                      "experiments/encoders_sins/loop", "experiments/encoders_sins/lockout",
+                      "experiments/encoders_sins/vehicle_scale", "experiments/encoders_sins/dual_tag_start",
+                      "experiments/encoders_sins/real_odometry"),
+    [](const auto& named) {
+      std::string name = named.param;
+      for (char& c : name) c = c == '/' ? '_' : c;
+      return name;
+    });
 
 }  // namespace
 }  // namespace pos::replay

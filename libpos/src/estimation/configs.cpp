@@ -129,6 +129,17 @@ DeadReckoningConfig validated(DeadReckoningConfig config) {
     refuse("dead reckoning cannot find its start by itself", "start.mode", "",
            "known, or at_truth with a truth that has a heading");
   }
+  requireFinite(config.height, "height_m");
+  requireValid(config.imu, "imu");
+  requireValid(config.alignment, "alignment");
+  requireValid(config.standstill, "standstill");
+  requireValid(config.odometer, "odometer");
+  requireCalibration(config.wheel_scale, "wheel_scale", "");
+  requireValid(config.heading, "heading");
+  if (config.variant != DeadReckoningConfig::Variant::Odometry && !(config.odometer.track > 0.0)) {
+    refuse("two wheels turn the vehicle by their distance from each other", "odometer.track_m",
+           std::to_string(config.odometer.track), "> 0");
+  }
   return config;
 }
 

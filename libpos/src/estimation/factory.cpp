@@ -9,6 +9,7 @@
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/range_odometry.hpp"
 #include "pos/estimation/sins_dr.hpp"
+#include "pos/estimation/wheel_reckoning.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -18,6 +19,7 @@ using Map = std::shared_ptr<const map::TunnelMap>;
 struct Make {
   Map map;
   std::unique_ptr<Estimator> operator()(const DeadReckoningConfig& c) const {
+    if (c.variant != DeadReckoningConfig::Variant::Odometry) return std::make_unique<WheelReckoning>(c, map);
     return std::make_unique<DeadReckoning>(c);
   }
   std::unique_ptr<Estimator> operator()(const RangeOdometryConfig& c) const {

@@ -71,6 +71,18 @@ ins::OdometerConfig validated(ins::OdometerConfig config) {
   return config;
 }
 
+HeadingFilterConfig validated(HeadingFilterConfig config) {
+  requireNotNegative(config.level_walk, "level_walk_deg_per_sqrt_s");
+  requirePositive(config.level_sigma, "level_sigma_deg");
+  requirePositive(config.yaw_sigma, "yaw_sigma_deg");
+  requireNotNegative(config.correlation_time, "correlation_time_s");
+  if (config.yaw_bias.value != 0.0) {
+    refuse("the heading's bias starts at zero: both headings start alike", "yaw_bias.value_deg",
+           std::to_string(config.yaw_bias.value), "0");
+  }
+  return config;
+}
+
 SinsDrConfig validated(SinsDrConfig config) {
   requireValid(config.start, "start");
   requireValid(config.imu, "imu");

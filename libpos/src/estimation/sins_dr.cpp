@@ -15,9 +15,7 @@ using ins::kPhi;
 using ins::kPosition;
 using ins::kVelocity;
 
-constexpr double kLeastRest = 1.0;            // s of standing that are worth an average
 constexpr double kMovingVelocitySigma = 0.2;  // m/s, of a start in motion, by the wheels
-constexpr double kFreeFall = 1.0;             // m/s^2: less specific force than this is no reading
 
 double square(double value) {
   return value * value;
@@ -48,12 +46,13 @@ ins::ImuIncrement corrected(const ins::ImuIncrement& raw, const SinsDrState& x) 
 
 SinsDr::SinsDr(const SinsDrConfig& config, const std::shared_ptr<const map::TunnelMap>& map)
     : config_(config),
-      earth_(config.earth == SinsDrConfig::EarthModel::Flat ? ins::Earth::flat(config.standstill.gravity)
-                                                            : ins::Earth::ellipsoid(),
+      earth_(config.earth == EarthModel::Flat ? ins::Earth::flat(config.standstill.gravity)
+                                              : ins::Earth::ellipsoid(),
              *map, "earth"),
       difference_gate_{chiSquareQuantile(config.slip.confidence, 3.0)},
       standstill_(config.standstill),
-      counter_(config.odometer),
+      rest_(config.alignment, config.standstill),
+      wheels_(config.odometer),
       slip_(config.slip),
       noise_(startNoise(config)) {}
 
@@ -61,17 +60,12 @@ void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
   given_ = prior;
   running_ = false;
   last_stamp_ = stamp;
-  imu_stamp_.reset();
-  wheel_stamp_.reset();
-  wheels_turned_.reset();
+  imu_.forget();
+  wheels_.forget();
   update_stamp_.reset();
   standstill_.forget();
   rest_.forget();
-  pending_.forget();
-  moved_early_ = false;
   blind_ = {};
-  blind_speed_ = 0.0;
-  counter_.forget();
   slip_.forget();
   last_second_.clear();
   noise_ = startNoise(config_);
@@ -95,20 +89,10 @@ IngestReport SinsDr::ingest(const Measurement& measurement) {
 }
 
 IngestReport SinsDr::take(Stamp stamp, const ImuSample& sample) {
-  double dt = imu_stamp_ ? seconds(stamp - *imu_stamp_) : 0.0;
-  if (sample.interval && !imu_stamp_) dt = seconds(*sample.interval);
-  const bool rates = sample.kind == ImuSample::Kind::Rates;
-  if (!rates && sample.interval) dt = seconds(*sample.interval);
-  const Eigen::Vector3d force = rates || dt == 0.0 ? sample.linear : Eigen::Vector3d(sample.linear / dt);
-  if (force.norm() < kFreeFall)
-    return refusal(Verdict::Degenerate, "the accelerometers feel no gravity: no inertial unit reads this");
-  ins::ImuIncrement raw{sample.angular, sample.linear, dt};
-  if (rates) {
-    raw.angle *= dt;
-    raw.velocity *= dt;
-  }
-  imu_stamp_ = stamp;
-  if (dt == 0.0) return {.verdict = Verdict::Applied};
+  const ImuIntake::Told told = imu_.take(stamp, sample);
+  if (!told.refusal.empty()) return refusal(Verdict::Degenerate, told.refusal);
+  const ins::ImuIncrement& raw = told.raw;
+  if (raw.dt == 0.0) return {.verdict = Verdict::Applied};
   return running_ ? strapdown(stamp, raw) : align(stamp, raw);
 }
 
@@ -116,30 +100,22 @@ IngestReport SinsDr::take(Stamp stamp, const ImuSample& sample) {
 
 IngestReport SinsDr::align(Stamp stamp, const ins::ImuIncrement& raw) {
   standstill_.add(raw);
-  pending_.add(raw);
-  if (standstill_.statistic() && pending_.time() >= config_.standstill.window - 1e-9) {
-    if (quiet() && !wheels_turned_) {
-      rest_.add(pending_.sum());
-      pending_.forget();
-    } else {
-      moved_early_ = true;
-    }
-  }
-  if (rest_.time() >= config_.alignment.time || moved_early_) {
-    const bool early = moved_early_;
-    start(stamp);
-    return {.verdict = Verdict::Applied,
-            .event = early ? "moved off before the alignment was over: level and gyro bias are less sure"
-                           : "aligned at rest"};
-  }
-  return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
+  const RestAlignment::Stage stage = rest_.add(raw, standstill_, wheels_.turned().has_value());
+  if (stage == RestAlignment::Stage::Standing)
+    return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
+  start(stamp);
+  return {.verdict = Verdict::Applied,
+          .event = stage == RestAlignment::Stage::MovedOff
+                       ? "moved off before the alignment was over: level and gyro bias are less sure"
+                       : "aligned at rest"};
 }
 
 void SinsDr::start(Stamp stamp) {
   Belief<Pose2> at = prior();
-  at.mean = at.mean * blind_;
-  const bool rested = rest_.time() >= kLeastRest;
-  const ins::RestAverage& average = rested ? rest_ : pending_;
+  at.mean = at.mean * blind_.moved;
+  const bool rested = rest_.rested();
+  const bool zeroed = rested && config_.alignment.zero_rate;
+  const ins::RestAverage& average = rest_.average();
   const Eigen::Vector3d origin_map(at.mean.x, at.mean.y, config_.height);
   const Eigen::Vector3d near = earth_.coordinates(origin_map);
   const Eigen::Matrix3d R_map_n = earth_.R_map_n(near);
@@ -151,14 +127,14 @@ void SinsDr::start(Stamp stamp) {
   x.nav.coordinates = earth_.coordinates(origin_map + R_map_n * (x.nav.q_n_b * config_.mounts.imu));
   x.wheel_coordinates = x.nav.coordinates;
   const ins::EarthPoint here = x.earth.at(x.nav.coordinates);
-  x.nav.v_n = blind_speed_ * (x.nav.q_n_b * x.rollingDirection());
-  if (rested) x.gyro_bias = ins::gyroBiasAtRest(average, here, x.nav.q_n_b);
+  x.nav.v_n = blind_.speed * (x.nav.q_n_b * x.rollingDirection());
+  if (zeroed) x.gyro_bias = ins::gyroBiasAtRest(average, here, x.nav.q_n_b);
 
   ins::AlignmentSigmas sigmas;
   sigmas.yaw = std::sqrt(at.covariance(2, 2));
-  sigmas.velocity = rested && blind_speed_ == 0.0 ? config_.zero_velocity_sigma : kMovingVelocitySigma;
+  sigmas.velocity = rested && blind_.speed == 0.0 ? config_.zero_velocity_sigma : kMovingVelocitySigma;
   sigmas.gyro_bias =
-      rested ? config_.imu.gyro_density / std::sqrt(average.time()) : config_.imu.gyro_bias_sigma;
+      zeroed ? config_.imu.gyro_density / std::sqrt(average.time()) : config_.imu.gyro_bias_sigma;
   sigmas.accelerometer_bias = config_.imu.accelerometer_bias_sigma;
   sigmas.level = rested ? config_.alignment.level_sigma : config_.alignment.moving_level_sigma;
   Matrix<21, 21> P = Matrix<21, 21>::Zero();
@@ -211,7 +187,7 @@ SinsDrInput SinsDr::input() const {
 
 void SinsDr::propagate() {
   if (unpropagated_ <= 0.0) return;
-  filters::predict(belief_, sinsDrStep(config_, belief_.mean, input(), unpropagated_));
+  estimation::propagate(belief_, config_, input(), unpropagated_);
   force_sum_.setZero();
   unpropagated_ = 0.0;
 }
@@ -219,7 +195,7 @@ void SinsDr::propagate() {
 /// The inertial unit is quiet and, where there are wheels, they have not turned for as long as it looked.
 bool SinsDr::standing(Stamp stamp) const {
   if (!quiet()) return false;
-  return !wheels_turned_ || seconds(stamp - *wheels_turned_) >= config_.standstill.window;
+  return !wheels_.turned() || seconds(stamp - *wheels_.turned()) >= config_.standstill.window;
 }
 
 /// Zero velocity and zero rate; both gated wide, for a vehicle on a turntable or in a slow lift is quiet too.
@@ -227,7 +203,7 @@ void SinsDr::standStill() {
   propagate();
   const filters::Gate gate{chiSquareQuantile(config_.fix_confidence, 3.0)};
   filters::correct(belief_, zeroVelocity(belief_.mean), diagonal3(config_.zero_velocity_sigma), gate);
-  if (rate_.time() <= 0.0) return;
+  if (rate_.time() <= 0.0 || !config_.alignment.zero_rate) return;
   const Matrix<3, 3> R = diagonal3(config_.imu.gyro_density / std::sqrt(rate_.time()));
   filters::correct(belief_, zeroRate(belief_.mean, rate_.rate()), R, gate);
 }
@@ -269,9 +245,9 @@ std::optional<Estimate> SinsDr::estimateAt(Stamp stamp) const {
   if (!last_stamp_ || stamp < *last_stamp_) return std::nullopt;
   if (!running_) {
     // Standing at the start, as far as anybody knows.
-    if (!given_ && !imu_stamp_) return std::nullopt;
+    if (!given_ && !imu_.stamp()) return std::nullopt;
     const Belief<Pose2> at = prior();
-    return planarEstimate(stamp, at.mean * blind_, at.covariance, config_.height);
+    return planarEstimate(stamp, at.mean * blind_.moved, at.covariance, config_.height);
   }
   const double dt = std::max(0.0, ageOf(stamp));
   const SinsDrState& x = belief_.mean;

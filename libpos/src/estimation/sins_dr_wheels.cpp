@@ -12,8 +12,6 @@ namespace {
 using ins::kPosition;
 using ins::kVelocity;
 
-constexpr double kWheelsQuiet = 0.005;        // m/s, below this wheels count as standing
-constexpr double kImplausibleSpeed = 40.0;    // m/s of a wheel on a mine vehicle: a counter that jumped
 constexpr double kSteadyDifference = 0.15;    // m/s over a second between wheels and accelerometers
 constexpr double kForcedVelocitySigma = 0.1;  // m/s
 
@@ -32,50 +30,32 @@ Matrix<3, 3> diagonal3(double sigma) {
 }  // namespace
 
 IngestReport SinsDr::take(Stamp stamp, const WheelTicks& ticks) {
-  if (config_.odometer.ticks_per_turn <= 0.0)
-    return refusal(Verdict::Unsupported, "odometer.ticks_per_turn is not given: ticks say nothing");
-  ins::TickCounter counter = counter_;
-  const auto way = counter.way(ticks.left, ticks.right);
-  const double dt = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
-  if (way && std::max(std::abs(way->left), std::abs(way->right)) > kImplausibleSpeed * std::max(dt, 1e-3))
-    return refusal(Verdict::Degenerate, "the counters jumped further than any wheel turns");
-  counter_ = counter;
-  return roll(stamp, way.value_or(ins::WheelWay{}), dt);
+  return roll(stamp, wheels_.take(stamp, ticks));
 }
 
 IngestReport SinsDr::take(Stamp stamp, const WheelSpeeds& speeds) {
-  const double dt = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
-  return roll(stamp, {speeds.left * dt, speeds.right * dt}, dt);
+  return roll(stamp, wheels_.take(stamp, speeds));
 }
 
 IngestReport SinsDr::take(Stamp stamp, const OdometryIncrement& odometry) {
-  const double since = wheel_stamp_ ? seconds(stamp - *wheel_stamp_) : 0.0;
-  const double dt = odometry.interval ? seconds(*odometry.interval) : since;
-  const double half = 0.5 * odometry.increment.yaw * std::max(config_.odometer.track, 1e-6);
-  return roll(stamp, {odometry.increment.x - half, odometry.increment.x + half}, dt);
+  return roll(stamp, wheels_.take(stamp, odometry));
 }
 
-/// Before the start there is no attitude: the wheels alone say how far the vehicle has gone.
-IngestReport SinsDr::rollBlind(Stamp stamp, const ins::WheelWay& way, double dt) {
-  wheel_stamp_ = stamp;
-  const double turn = config_.odometer.track > 0.0 ? way.turn(config_.odometer.track) : 0.0;
-  blind_ = blind_ * ins::arc(way.middle(), turn);
-  if (dt > 0.0) blind_speed_ = way.middle() / dt;
-  return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
-}
-
-IngestReport SinsDr::roll(Stamp stamp, const ins::WheelWay& way, double dt) {
-  if (dt > 0.0 && std::abs(way.middle()) + std::abs(way.right - way.left) > kWheelsQuiet * dt)
-    wheels_turned_ = stamp;
-  if (!running_) return rollBlind(stamp, way, dt);
+IngestReport SinsDr::roll(Stamp stamp, const WheelIntake::Told& told) {
+  if (told.verdict != Verdict::Applied) return refusal(told.verdict, told.reason);
+  const auto& [way, dt, first] = told.reading;
+  if (!running_) {
+    // No attitude yet: the wheels alone say how far the vehicle has gone.
+    blind_.add(told.reading, config_.odometer.track);
+    return refusal(Verdict::NotInitialised, "standing still to find the level and the gyro bias");
+  }
   const Eigen::Quaterniond q_now =
       belief_.mean.nav.q_n_b *
       quaternionFromRotationVector(
           last_increment_.dt > 0.0
               ? Eigen::Vector3d(last_increment_.angle * (ageOf(stamp) / last_increment_.dt))
               : Eigen::Vector3d::Zero());
-  const bool lost = !wheel_stamp_ || dt > config_.wheels_lost_after;
-  wheel_stamp_ = stamp;
+  const bool lost = first || dt > config_.wheels_lost_after;
   if (lost || dt <= 0.0) {
     q_at_wheels_ = q_now;
     if (!lost) return {.verdict = Verdict::Applied};
@@ -104,7 +84,7 @@ IngestReport SinsDr::compare(Stamp stamp) {
   const SlipAction action = slip_.observe(evidence(stamp, nis));
   IngestReport report{.verdict = Verdict::Applied, .dof = 3, .nis = nis};
   if (slip_.isolated() && action != SlipAction::Isolate) report.dof = 0;
-  report = act(stamp, action, difference, report);
+  report = act(stamp, action, report);
   update_stamp_ = stamp;
   coordinates_at_update_ = belief_.mean.nav.coordinates;
   since_update_ = {};
@@ -124,30 +104,32 @@ SlipEvidence SinsDr::evidence(Stamp stamp, double difference_nis) const {
   auto velocity = velocityDifference(belief_.mean, in);
   const Eigen::Vector3d inertial =
       ins::metresBetween(belief_.mean.earth, coordinates_at_update_, belief_.mean.nav.coordinates) /
-      std::max(seconds(*imu_stamp_ - *update_stamp_), 1e-3);
+      std::max(seconds(*imu_.stamp() - *update_stamp_), 1e-3);
   velocity.nu = in.wheel_v_n - inertial;
   const double nis = filters::normalisedSquare(belief_, velocity, diagonal3(config_.slip.velocity_sigma));
   const double turn_rate = rate_.time() > 0.0 ? (rate_.rate() - belief_.mean.gyro_bias).z() : 0.0;
   const bool turns_agree = config_.odometer.track <= 0.0 ||
                            std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate;
   e.velocities_agree = nis < chiSquareQuantile(config_.slip.release_confidence, 3.0) && turns_agree;
-  if (!last_second_.empty()) {
-    const Speeds& before = last_second_.front();
-    const Eigen::Vector3d change = (in.wheel_v_n - before.wheels) - (belief_.mean.nav.v_n - before.inertial);
-    e.wheels_steady = seconds(stamp - before.stamp) > 0.9 && change.norm() < kSteadyDifference && turns_agree;
-  }
+  // Steady throughout: wheels that shake agree with the accelerometers now and then by chance.
+  e.wheels_steady = turns_agree && !last_second_.empty() &&
+                    seconds(stamp - last_second_.front().stamp) > 0.9 &&
+                    std::all_of(last_second_.begin(), last_second_.end(), [&](const Speeds& before) {
+                      const Eigen::Vector3d wheels = in.wheel_v_n - before.wheels;
+                      return (wheels - (belief_.mean.nav.v_n - before.inertial)).norm() < kSteadyDifference;
+                    });
+  e.standing = config_.slip.standstill_updates && quiet();
   const double variance = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
   e.position_sigma = std::sqrt(std::max(0.0, variance - variance_when_isolated_));
   return e;
 }
 
-IngestReport SinsDr::act(Stamp stamp, SlipAction action,
-                         const filters::Innovation<SinsDrState, 3>& difference, IngestReport report) {
+IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
   last_nis_ = report.nis;
   const bool was_degraded = slip_.degraded();
   switch (action) {
     case SlipAction::Use: {
-      const auto told = filters::correct(belief_, difference, noise_.R());
+      const auto told = correctDifference(belief_, ageOf(stamp), noise_.R());
       if (config_.variant == SinsDrConfig::Variant::Iaekf && told.nis < difference_gate_.threshold)
         noise_.learn(told.nu, told.S, noise_.R());
       break;

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "pos/filters/wide.hpp"
+#include "pos/ins/block_transition.hpp"
+
 namespace pos::estimation {
 namespace {
 
@@ -23,6 +26,46 @@ filters::Innovation<SinsDrState, M> empty() {
 
 double square(double value) {
   return value * value;
+}
+
+/// What a while adds to the covariance: a diagonal, and a block for the wheels' position.
+struct SinsDrNoise {
+  Vector<21> diagonal = Vector<21>::Zero();
+  Matrix<3, 3> wheels = Matrix<3, 3>::Zero();
+};
+
+SinsDrNoise noiseOver(const SinsDrConfig& config, const SinsDrState& x, const SinsDrInput& input, double dt) {
+  SinsDrNoise q;
+  q.diagonal.segment<3>(kPhi).setConstant(square(config.imu.gyro_density) * dt);
+  q.diagonal.segment<3>(kVelocity).setConstant(square(config.imu.accelerometer_density) * dt);
+  q.diagonal.segment<3>(kGyroBias).setConstant(square(config.imu.gyro_bias_walk) * dt);
+  q.diagonal.segment<3>(kAccelerometerBias).setConstant(square(config.imu.accelerometer_bias_walk) * dt);
+  q.diagonal[kScale] = square(config.odometer_scale_walk) * dt;
+  // Each wheel's way has k_d^2 |way|; their mean half of it, along the way. The rest is white in velocity.
+  const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
+  const double way_density = 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(input.wheel_speed);
+  q.wheels = dt * way_density * along * along.transpose();
+  q.wheels.diagonal().array() += square(config.odometer_velocity_sigma) * input.wheel_interval * dt;
+  return q;
+}
+
+void addNoise(Matrix<21, 21>& P, const SinsDrNoise& noise) {
+  P.diagonal() += noise.diagonal;
+  P.block<3, 3>(kWheelPosition, kWheelPosition) += noise.wheels;
+}
+
+/// P <- P - W W' for 21 x 21 and 21 x 3, column after column; one half, then the other.
+POS_WIDE void takeOff(double* __restrict__ P, const double* __restrict__ W) {
+  constexpr int n = 21;
+  for (int j = 0; j < n; ++j) {
+    const double a = W[j];
+    const double b = W[n + j];
+    const double c = W[2 * n + j];
+    for (int i = j; i < n; ++i) P[n * j + i] -= W[i] * a + W[n + i] * b + W[2 * n + i] * c;
+  }
+  for (int j = 1; j < n; ++j) {
+    for (int i = 0; i < j; ++i) P[n * j + i] = P[n * i + j];
+  }
 }
 
 }  // namespace
@@ -87,17 +130,7 @@ Vector<21> errorSigns() {
 
 Matrix<21, 21> sinsDrNoise(const SinsDrConfig& config, const SinsDrState& x, const SinsDrInput& input) {
   Matrix<21, 21> q = Matrix<21, 21>::Zero();
-  q.diagonal().segment<3>(kPhi).setConstant(square(config.imu.gyro_density));
-  q.diagonal().segment<3>(kVelocity).setConstant(square(config.imu.accelerometer_density));
-  q.diagonal().segment<3>(kGyroBias).setConstant(square(config.imu.gyro_bias_walk));
-  q.diagonal().segment<3>(kAccelerometerBias).setConstant(square(config.imu.accelerometer_bias_walk));
-  q(kScale, kScale) = square(config.odometer_scale_walk);
-  // Each wheel's way has k_d^2 |way|; their mean half of it, along the way. The rest is white in velocity.
-  const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
-  const double way_density = 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(input.wheel_speed);
-  q.block<3, 3>(kWheelPosition, kWheelPosition) = way_density * along * along.transpose();
-  q.diagonal().segment<3>(kWheelPosition).array() +=
-      square(config.odometer_velocity_sigma) * input.wheel_interval;
+  addNoise(q, noiseOver(config, x, input, 1.0));
   return q;
 }
 
@@ -111,6 +144,30 @@ filters::Step<SinsDrState> sinsDrStep(const SinsDrConfig& config, const SinsDrSt
   const Matrix<21, 21> Qd = 0.5 * dt * (Phi * q * Phi.transpose() + q);
   step.Qd = s.asDiagonal() * Qd * s.asDiagonal();
   return step;
+}
+
+void propagate(Belief<SinsDrState>& belief, const SinsDrConfig& config, const SinsDrInput& input, double dt) {
+  const SinsDrState& x = belief.mean;
+  const ins::ErrorModel model = ins::errorModel(x.earth, x.nav, input.force_b);
+  ins::BlockTransition<21> Phi;
+  ins::addInertial(Phi, x.earth, model, dt);
+  const Eigen::Matrix3d swung = -dt * skew(input.wheel_v_n);
+  Phi.add(kWheelPosition, kPhi, swung);
+  Phi.add(kWheelPosition, kGyroBias, Eigen::Matrix3d(-0.5 * dt * swung * model.C));
+  if (!x.earth.isFlat()) {
+    const Eigen::Matrix3d rate = ins::metricRate(x.earth.at(x.wheel_coordinates), input.wheel_v_n);
+    Phi.add(kWheelPosition, kWheelPosition, Eigen::Matrix3d(dt * rate));
+  }
+  const double way = dt * input.wheel_speed;
+  Phi.add(kWheelPosition, kScale, Eigen::Vector3d(-way * (model.C * x.rollingDirection())));
+  if (config.boresight_sigma > 0.0) {
+    Phi.add(kWheelPosition, kBoresightPitch, Eigen::Vector3d(way * model.C.col(2)));
+    Phi.add(kWheelPosition, kBoresightYaw, Eigen::Vector3d(way * model.C.col(1)));
+  }
+  const SinsDrNoise half = noiseOver(config, x, input, 0.5 * dt);
+  addNoise(belief.covariance, half);
+  Phi.carry(belief.covariance);
+  addNoise(belief.covariance, half);
 }
 
 SinsDrState rolled(SinsDrState x, const Eigen::Quaterniond& q_before, const Eigen::Quaterniond& q_now,
@@ -131,6 +188,35 @@ filters::Innovation<SinsDrState, 3> positionDifference(const SinsDrState& x, dou
   innovation.H.block<3, 3>(0, kVelocity) = age * Eigen::Matrix3d::Identity();
   innovation.H.block<3, 3>(0, kWheelPosition) = -Eigen::Matrix3d::Identity();
   return innovation;
+}
+
+filters::Correction<3> correctDifference(Belief<SinsDrState>& belief, double age, const Matrix<3, 3>& R) {
+  Matrix<21, 21>& P = belief.covariance;
+  const auto seen = [&](const auto& columns) {
+    return (columns.template middleCols<3>(kPosition) + age * columns.template middleCols<3>(kVelocity) -
+            columns.template middleCols<3>(kWheelPosition))
+        .eval();
+  };
+  const Matrix<21, 3> G = seen(P);  // P H'
+  filters::Correction<3> result;
+  result.nu = positionDifference(belief.mean, age).nu;
+  result.S = seen(Matrix<3, 21>(G.transpose())).transpose() + R;
+  const Eigen::LLT<Matrix<3, 3>> S_factor(result.S);
+  if (S_factor.info() != Eigen::Success || !result.S.allFinite() || !result.nu.allFinite()) {
+    result.verdict = Verdict::Degenerate;
+    return result;
+  }
+  const Vector<3> whitened = S_factor.matrixL().solve(result.nu);
+  result.nis = whitened.squaredNorm();
+  // W = G L'^-1, column by column.
+  const Matrix<3, 3>& L = S_factor.matrixLLT();
+  Matrix<21, 3> W;
+  W.col(0) = G.col(0) / L(0, 0);
+  W.col(1) = (G.col(1) - L(1, 0) * W.col(0)) / L(1, 1);
+  W.col(2) = (G.col(2) - L(2, 0) * W.col(0) - L(2, 1) * W.col(1)) / L(2, 2);
+  belief.mean = plus(belief.mean, Tangent<SinsDrState>(W * whitened));
+  takeOff(P.data(), W.data());
+  return result;
 }
 
 filters::Innovation<SinsDrState, 3> velocityDifference(const SinsDrState& x, const SinsDrInput& input) {

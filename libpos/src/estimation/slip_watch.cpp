@@ -23,7 +23,8 @@ SlipAction SlipWatch::whileIsolated(const SlipEvidence& evidence) {
   if (agreements_ >= config_.release_updates) return freed(SlipAction::Release);
   if (seconds(evidence.stamp - *since_) > config_.max_time || evidence.position_sigma > config_.max_sigma) {
     degraded_ = true;
-    if (evidence.wheels_steady) return freed(SlipAction::ForceBack);
+    // Wheels that turn while the vehicle stands may turn as steadily as they like.
+    if (evidence.wheels_steady && !evidence.standing) return freed(SlipAction::ForceBack);
   }
   return SlipAction::Stay;
 }

@@ -17,8 +17,7 @@ struct Gravity {
   double by_height;
 };
 
-Gravity gravityAt(double latitude, double height) {
-  const double s = std::sin(latitude);
+Gravity gravityAt(double s, double c, double height) {
   const double s2 = s * s;
   const double w2 = 1.0 - kEccentricitySquared * s2;
   const double surface = kGravityEquator * (1.0 + kSomigliana * s2) / std::sqrt(w2);
@@ -28,8 +27,7 @@ Gravity gravityAt(double latitude, double height) {
   const double at_height = 1.0 - slope * height + curve * height * height;
   const double by_s2 = surface * (kSomigliana / (1.0 + kSomigliana * s2) + 0.5 * kEccentricitySquared / w2);
   const double slope_by_s2 = -4.0 * kFlattening / kEquatorRadius;
-  return {surface * at_height,
-          2.0 * s * std::cos(latitude) * (by_s2 * at_height - surface * slope_by_s2 * height),
+  return {surface * at_height, 2.0 * s * c * (by_s2 * at_height - surface * slope_by_s2 * height),
           surface * (-slope + 2.0 * curve * height)};
 }
 
@@ -47,7 +45,7 @@ double transverseRadius(double latitude) {
 }
 
 double normalGravity(double latitude, double height) {
-  return gravityAt(latitude, height).value;
+  return gravityAt(std::sin(latitude), std::cos(latitude), height).value;
 }
 
 Eigen::Vector3d EarthPoint::omega_en(const Eigen::Vector3d& v_n) const {
@@ -65,8 +63,10 @@ EarthPoint Earth::at(const Eigen::Vector3d& coordinates) const {
   const double height = coordinates.z();
   const double s = std::sin(latitude);
   const double c = std::cos(latitude);
-  const double M = meridianRadius(latitude) + height;
-  const double N = transverseRadius(latitude) + height;
+  const double w2 = 1.0 - kEccentricitySquared * s * s;
+  const double R_N = kEquatorRadius / std::sqrt(w2);
+  const double M = R_N * (1.0 - kEccentricitySquared) / w2 + height;
+  const double N = R_N + height;
   point.metric = {N * c, M, 1.0};
   point.omega_ie = {0.0, kEarthRate * c, kEarthRate * s};
   point.omega_ie_by_north_y = -kEarthRate * s / M;
@@ -74,7 +74,7 @@ EarthPoint Earth::at(const Eigen::Vector3d& coordinates) const {
   point.inverse_meridian = 1.0 / M;
   point.inverse_transverse = 1.0 / N;
   point.tan_latitude = s / c;
-  const Gravity gravity = gravityAt(latitude, height);
+  const Gravity gravity = gravityAt(s, c, height);
   point.gravity = gravity.value;
   point.gravity_by_north = gravity.by_latitude / M;
   point.gravity_by_height = gravity.by_height;

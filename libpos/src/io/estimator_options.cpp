@@ -8,7 +8,6 @@ namespace pos::io {
 namespace {
 
 using estimation::CalibrationState;
-using estimation::DeadReckoningConfig;
 using estimation::GateConfig;
 using estimation::MclConfig;
 using estimation::MrptMclConfig;
@@ -155,17 +154,6 @@ OptionTable<OdometryNoise> odometryNoiseOptions() {
       .check(kValid);
 }
 
-OptionTable<DeadReckoningConfig> deadReckoningOptions() {
-  return OptionTable<DeadReckoningConfig>("dead_reckoning", "Odometry alone, from a known start.")
-      .choice("variant", &DeadReckoningConfig::variant,
-              {{"odometry", DeadReckoningConfig::Variant::Odometry}}, "What the motion is taken from.")
-      .table("start", &DeadReckoningConfig::start, startOptions(),
-             "What is known of the pose at the first measurement.")
-      .table("odometry_noise", &DeadReckoningConfig::noise, odometryNoiseOptions(),
-             "How odometry errors grow with way, turning and time.")
-      .check(kValid);
-}
-
 OptionTable<RangeOdometryConfig> rangeOdometryOptions() {
   using Config = RangeOdometryConfig;
   return OptionTable<Config>("range_odometry", "Planar Kalman filter on odometry and radio ranges.")
@@ -260,7 +248,8 @@ OptionTable<EstimatorEntry> estimatorOptions() {
             "Name in tables and of result files: letters, digits, _ and - only.")
       .required()
       .selector("type", "Which system it is; decides which further keys there are.")
-      .alternative("dead_reckoning", config, deadReckoningOptions(), "Odometry alone, from a known start.")
+      .alternative("dead_reckoning", config, deadReckoningOptions(),
+                   "Odometry or wheels alone, from a known start.")
       .alternative("range_odometry", config, rangeOdometryOptions(),
                    "Planar Kalman filter on odometry and radio ranges.")
       .alternative("mcl", config, mclOptions(), "Particle filter on the anchors and the grid of the map.")

@@ -6,6 +6,7 @@ namespace pos::io {
 namespace {
 
 using estimation::AlignmentConfig;
+using estimation::EarthModel;
 using estimation::ImuNoise;
 using estimation::InertialMounts;
 using estimation::SinsDrConfig;
@@ -59,6 +60,8 @@ OptionTable<AlignmentConfig> alignmentOptions() {
               "Tilt left over beyond what the accelerometer bias explains.")
       .number("moving_level_sigma_deg", &AlignmentConfig::moving_level_sigma, between(1e-3, 45),
               "Tilt left over when it moved off before the time was up.")
+      .flag("zero_rate", &AlignmentConfig::zero_rate,
+            "Whether standing still shows the gyro bias, now and at every stop; false only to compare.")
       .check(kValid);
 }
 
@@ -126,8 +129,7 @@ OptionTable<SinsDrConfig> sinsDrOptions() {
               "Measurement noise as given, or learnt on the way.")
       .table("start", &Config::start, startOptions(), "Position and heading at the first measurement.")
       .number("height_m", &Config::height, between(-10000, 10000), "Height of the body frame at the start.")
-      .choice("earth", &Config::earth,
-              {{"flat", Config::EarthModel::Flat}, {"ellipsoid", Config::EarthModel::Ellipsoid}},
+      .choice("earth", &Config::earth, {{"flat", EarthModel::Flat}, {"ellipsoid", EarthModel::Ellipsoid}},
               "Flat and still, or the turning ellipsoid; the latter needs the map's origin.")
       .table("imu", &Config::imu, imuNoiseOptions(), "What the inertial unit does wrong.")
       .table("mounts", &Config::mounts, inertialMountOptions(), "Where things sit on the body.")

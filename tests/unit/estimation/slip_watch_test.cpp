@@ -68,6 +68,19 @@ TEST(SlipWatch, IsolationIsBoundedByTimeAndBySigma) {
   EXPECT_TRUE(by_sigma.degraded());
 }
 
+TEST(SlipWatch, SteadyWheelsAreNotTakenBackWhileTheVehicleStands) {
+  SlipWatch watch({.max_time = 2.0});
+  watch.observe(evidence(0.0, true));
+  watch.observe(evidence(0.1, true));
+  SlipEvidence standing = evidence(3.0, false);
+  standing.wheels_steady = true;
+  standing.standing = true;
+  EXPECT_EQ(watch.observe(standing), SlipAction::Stay);
+  EXPECT_TRUE(watch.degraded()) << "but it says for how long they have been out";
+  standing.standing = false;
+  EXPECT_EQ(watch.observe(standing), SlipAction::ForceBack);
+}
+
 TEST(SlipWatch, HandlingDecides) {
   SlipWatch believing({.handling = SlipConfig::Handling::None});
   SlipWatch gating({.handling = SlipConfig::Handling::Gate});

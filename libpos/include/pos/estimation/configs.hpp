@@ -11,6 +11,7 @@
 #include "pos/core/belief.hpp"
 #include "pos/core/measurement.hpp"
 #include "pos/core/pose2.hpp"
+#include "pos/estimation/calibration_state.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
 
@@ -37,10 +38,23 @@ struct OdometryNoise {
 };
 
 struct DeadReckoningConfig {
-  /// `odometry`: increments as they come.
-  enum class Variant { Odometry } variant = Variant::Odometry;
+  enum class Variant {
+    Odometry,          ///< increments as they come
+    Encoders,          ///< two wheels: way and turn
+    EncodersAttitude,  ///< way from the wheels, attitude from the gyros
+    EkfHeading,        ///< both headings in a filter
+  } variant = Variant::Odometry;
   StartConfig start;
-  OdometryNoise noise;
+  OdometryNoise noise;  ///< of the variant `odometry`; the others have what follows
+  double height = 0.0;  ///< m, of the body frame in the map at the start
+  EarthModel earth = EarthModel::Flat;
+  ImuNoise imu;
+  InertialMounts mounts;
+  AlignmentConfig alignment;
+  ins::StandstillConfig standstill;
+  ins::OdometerConfig odometer;
+  CalibrationState wheel_scale{0.0, 0.0, 0.0};  ///< wheels read (1 + it) times the way
+  HeadingFilterConfig heading;
 
   bool operator==(const DeadReckoningConfig&) const = default;
 };
@@ -54,16 +68,6 @@ struct GateConfig {
   double inflation = 4.0;  ///< factor on the pose covariance each time the gate opens
 
   bool operator==(const GateConfig&) const = default;
-};
-
-/// A slowly changing unknown of a sensor: its start value, how sure that is, and how it wanders.
-/// Sigma 0 holds it at its value (the state does not exist).
-struct CalibrationState {
-  double value = 0.0;
-  double sigma = 0.0;
-  double walk_per_sqrt_s = 0.0;
-
-  bool operator==(const CalibrationState&) const = default;
 };
 
 struct RangeOdometryConfig {

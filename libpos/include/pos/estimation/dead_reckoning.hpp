@@ -1,6 +1,6 @@
 #pragma once
 /// `dead_reckoning`, variant `odometry`: increments as they come. The yardstick every other estimator must
-/// beat.
+/// beat. The variants with wheels are in wheel_reckoning.hpp.
 
 #include <optional>
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "pos/estimation/calibration_state.hpp"
 #include "pos/estimation/start_config.hpp"
 #include "pos/filters/noise_adaptation.hpp"
 #include "pos/ins/odometer.hpp"
@@ -28,6 +29,7 @@ struct AlignmentConfig {
   double time = 5.0;                 ///< s of standing still before the first answer
   double level_sigma = 2e-4;         ///< rad, tilt beyond what the accelerometer bias explains
   double moving_level_sigma = 0.03;  ///< rad, tilt when the vehicle moved off before the time was up
+  bool zero_rate = true;  ///< standing still shows the gyro bias; false: it is left unknown (a comparison)
 
   bool operator==(const AlignmentConfig&) const = default;
 };
@@ -55,6 +57,10 @@ struct SlipConfig {
   bool operator==(const SlipConfig&) const = default;
 };
 
+/// `Flat`: the map's axes, no Earth rotation (simulations of small sites). `Ellipsoid`: the map's tie to the
+/// Earth is needed.
+enum class EarthModel { Flat, Ellipsoid };
+
 /// Where things sit on the body (m, FLU).
 struct InertialMounts {
   Eigen::Vector3d imu = Eigen::Vector3d::Zero();
@@ -63,14 +69,26 @@ struct InertialMounts {
   bool operator==(const InertialMounts&) const = default;
 };
 
+/// How `dead_reckoning` with `ekf_heading` weighs the inertial attitude against the wheels' turns.
+struct HeadingFilterConfig {
+  double level_walk = 0.0087;   ///< rad per sqrt(s), how climb and roll change
+  double level_sigma = 0.0035;  ///< rad, of the climb and roll seen
+  double yaw_sigma = 0.0175;    ///< rad, of the inertial heading
+  /// s during which the error of that heading stays the same, so that its readings are not news each time:
+  /// the variance counts (this over the interval between readings) times. 0: white.
+  double correlation_time = 40.0;
+  CalibrationState yaw_bias{0.0, 0.0, 0.0};     ///< rad, state: the inertial heading reads too much
+  CalibrationState track_error{0.0, 0.0, 0.0};  ///< state: the track is too large by this share
+
+  bool operator==(const HeadingFilterConfig&) const = default;
+};
+
 struct SinsDrConfig {
   /// `ekf`: fixed measurement noise. `iaekf`: learnt on the way.
   enum class Variant { Ekf, Iaekf } variant = Variant::Iaekf;
   StartConfig start;    ///< known position and heading; height in `height`
   double height = 0.0;  ///< m, of the body frame in the map at the start
-  /// `flat`: the map's axes, no Earth rotation (simulations of small sites). `ellipsoid`: the map's tie to
-  /// the Earth is needed.
-  enum class EarthModel { Flat, Ellipsoid } earth = EarthModel::Flat;
+  EarthModel earth = EarthModel::Flat;
   ImuNoise imu;
   InertialMounts mounts;
   AlignmentConfig alignment;
@@ -98,6 +116,7 @@ struct SinsDrConfig {
 ImuNoise validated(ImuNoise config);
 AlignmentConfig validated(AlignmentConfig config);
 SlipConfig validated(SlipConfig config);
+HeadingFilterConfig validated(HeadingFilterConfig config);
 SinsDrConfig validated(SinsDrConfig config);
 ins::StandstillConfig validated(ins::StandstillConfig config);
 ins::OdometerConfig validated(ins::OdometerConfig config);

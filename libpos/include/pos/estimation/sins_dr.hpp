@@ -9,11 +9,11 @@
 
 #include "pos/estimation/configs.hpp"
 #include "pos/estimation/estimator.hpp"
+#include "pos/estimation/inertial_intake.hpp"
 #include "pos/estimation/map_earth.hpp"
 #include "pos/estimation/sins_state.hpp"
 #include "pos/estimation/slip_watch.hpp"
 #include "pos/filters/noise_adaptation.hpp"
-#include "pos/ins/odometer.hpp"
 
 namespace pos::estimation {
 
@@ -59,16 +59,14 @@ class SinsDr final : public Estimator {
   void standStill();
 
   // Wheels.
-  IngestReport roll(Stamp stamp, const ins::WheelWay& way, double dt);
-  IngestReport rollBlind(Stamp stamp, const ins::WheelWay& way, double dt);
+  IngestReport roll(Stamp stamp, const WheelIntake::Told& told);
   IngestReport compare(Stamp stamp);
   SlipEvidence evidence(Stamp stamp, double difference_nis) const;
-  IngestReport act(Stamp stamp, SlipAction action, const filters::Innovation<SinsDrState, 3>& difference,
-                   IngestReport report);
+  IngestReport act(Stamp stamp, SlipAction action, IngestReport report);
   void whileIsolated();
   void takeWheelVelocity();
   SinsDrInput input() const;
-  double ageOf(Stamp stamp) const { return seconds(stamp - *imu_stamp_); }
+  double ageOf(Stamp stamp) const { return seconds(stamp - *imu_.stamp()); }
 
   SinsDrConfig config_;
   MapEarth earth_;
@@ -79,21 +77,16 @@ class SinsDr final : public Estimator {
   std::optional<Stamp> last_stamp_;
 
   ins::StandstillDetector standstill_;
-  ins::RestAverage rest_;     // standing, confirmed
-  ins::RestAverage pending_;  // the last window, not yet confirmed
-  bool moved_early_ = false;
-  Pose2 blind_;               // driven by the wheels before the alignment was over
-  double blind_speed_ = 0.0;  // m/s, at its end
+  RestAlignment rest_;
+  BlindDrive blind_;  // before the alignment was over
 
-  std::optional<Stamp> imu_stamp_;
+  ImuIntake imu_;
   ins::ImuIncrement last_increment_;                     // biases off
   ins::RestAverage rate_;                                // readings since the last update
   Eigen::Vector3d force_sum_ = Eigen::Vector3d::Zero();  // m/s since the last propagation
   double unpropagated_ = 0.0;                            // s
 
-  ins::TickCounter counter_;
-  std::optional<Stamp> wheel_stamp_;
-  std::optional<Stamp> wheels_turned_;  // last moment at which they did
+  WheelIntake wheels_;
   Eigen::Quaterniond q_at_wheels_ = Eigen::Quaterniond::Identity();
   Rolling since_update_;
   double wheel_interval_ = 0.02;

@@ -51,7 +51,10 @@ Matrix<21, 21> sinsDrErrorF(const SinsDrState& x, const SinsDrInput& input);
 Vector<21> errorSigns();
 /// Noise density (per second) of the same errors, diagonal but for the wheels' position.
 Matrix<21, 21> sinsDrNoise(const SinsDrConfig& config, const SinsDrState& x, const SinsDrInput& input);
-/// F and Qd of one interval in the tangent; `next` is the state itself (the strapdown has moved it already).
+/// The covariance carried over one interval (the strapdown has moved the mean already), block by block:
+/// P <- Phi (P + dt/2 q) Phi' + dt/2 q.
+void propagate(Belief<SinsDrState>& belief, const SinsDrConfig& config, const SinsDrInput& input, double dt);
+/// The same as full matrices, with every term of Phi = I + F dt + (F dt)^2 / 2: the oracle of tests.
 filters::Step<SinsDrState> sinsDrStep(const SinsDrConfig& config, const SinsDrState& x,
                                       const SinsDrInput& input, double dt);
 
@@ -63,6 +66,9 @@ SinsDrState rolled(SinsDrState x, const Eigen::Quaterniond& q_before, const Eige
 /// Inertial position minus wheel position is zero: three rows, m. `age` (s) is how long ago the inertial
 /// solution was stamped.
 filters::Innovation<SinsDrState, 3> positionDifference(const SinsDrState& x, double age);
+/// Takes that difference with noise R as filters::correct would, without touching the zeros of H and with
+/// P - W W' (W = P H' L'^-1, S = L L') on one half of P.
+filters::Correction<3> correctDifference(Belief<SinsDrState>& belief, double age, const Matrix<3, 3>& R);
 /// Inertial velocity minus the wheels' (v_n of the unit, m/s) is zero.
 filters::Innovation<SinsDrState, 3> velocityDifference(const SinsDrState& x, const SinsDrInput& input);
 /// The unit stands still.

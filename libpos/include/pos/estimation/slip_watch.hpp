@@ -16,6 +16,7 @@ struct SlipEvidence {
   bool disagrees = false;         ///< the positions' or the velocities' difference is beyond the gate
   bool velocities_agree = false;  ///< within the release gate, and so do the turns
   bool wheels_steady = false;     ///< wheels changed speed as the accelerometers say over the last second
+  bool standing = false;          ///< the inertial unit is quiet and that is used: nothing drifts
   double position_sigma = 0.0;    ///< m, of the inertial position since
 };
 
