@@ -2,76 +2,13 @@
 
 #include "pos/io/files.hpp"
 #include "pos/io/overrides.hpp"
-#include "pos/io/text.hpp"
+#include "run_rules.hpp"
 
 namespace pos::io {
 namespace {
 
 using Align = EvaluationConfig::Align;
 using Format = TruthSource::Format;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& key, const std::string& got,
-                         const std::string& expected, const std::string& suggestion = "") {
-  throw ConfigError(
-      Complaint{.what = what, .key = key, .got = got, .expected = expected, .suggestion = suggestion});
-}
-
-std::string indexed(const std::string& list, std::size_t i, const std::string& key) {
-  return list + "[" + std::to_string(i) + "]." + key;
-}
-
-bool fitsFileName(const std::string& name) {
-  return !name.empty() && name.find_first_not_of(
-                              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                              "0123456789_-") == std::string::npos;
-}
-
-void requireUniqueEstimators(const std::vector<EstimatorEntry>& estimators) {
-  if (estimators.empty()) {
-    refuse("there is no estimator to run", "estimators", "an empty list",
-           "at least one item with name and type");
-  }
-  for (std::size_t i = 0; i < estimators.size(); ++i) {
-    const std::string& name = estimators[i].name;
-    const std::string key = indexed("estimators", i, "name");
-    if (!fitsFileName(name)) {
-      refuse("the name does not fit a file name", key, name, "letters, digits, _ and - only");
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (estimators[j].name != name) continue;
-      refuse("two estimators have the same name", key, name, "every name once",
-             "estimators[" + std::to_string(j) + "] has it already; rename one of the two");
-    }
-  }
-}
-
-void requireUniqueSensors(const std::vector<SensorConfig>& sensors) {
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (sensors[j].sensor != sensors[i].sensor) continue;
-      refuse("a sensor is listed twice", indexed("sensors", i, "sensor"), sensors[i].sensor,
-             "every sensor once", "sensors[" + std::to_string(j) + "] names it already; join the two");
-    }
-  }
-}
-
-void requireTruthFile(const TruthSource& truth) {
-  if (truth.format == Format::Log && truth.file) {
-    refuse("the truth is to come from the log, yet a file is named", "file", truth.file->string(),
-           "no file with format: log");
-  }
-  if (truth.format != Format::Log && !truth.file) {
-    refuse("the truth has no file", "file", "", "a path, unless format: log");
-  }
-}
-
-void requireOrder(const FaultConfig& faults) {
-  if (faults.range_outlier_min > faults.range_outlier_max) {
-    refuse("the smallest outlier exceeds the largest", "range_outlier_min_m",
-           std::to_string(faults.range_outlier_min),
-           "at most range_outlier_max_m = " + std::to_string(faults.range_outlier_max));
-  }
-}
 
 /// Runs a rule of an inner table, so that its complaint names the whole key.
 template <class Rule>
@@ -171,28 +108,6 @@ OptionTable<CampaignConfig> campaignOptions() {
             "Name of the estimator that the others are compared with; the first where absent.");
 }
 
-void requireKnownBaseline(const RunConfig& config) {
-  if (!config.campaign.baseline) return;
-  std::vector<std::string> names;
-  for (const EstimatorEntry& entry : config.estimators) names.push_back(entry.name);
-  if (std::find(names.begin(), names.end(), *config.campaign.baseline) != names.end()) return;
-  refuse("the baseline is none of the estimators", "campaign.baseline", *config.campaign.baseline,
-         "one of: " + text::joined(names));
-}
-
-/// A run has one input: a recording with its truth, or a scenario that knows its own.
-void requireOneInput(const RunConfig& config) {
-  if (!config.scenario) return;
-  if (config.log) {
-    refuse("the run has a recording and a scenario", "scenario", config.scenario->file.string(),
-           "either log or scenario");
-  }
-  if (config.truth) {
-    refuse("the run has a scenario and a truth of its own", "truth", "a table",
-           "no truth; the scenario knows it", "remove truth");
-  }
-}
-
 }  // namespace
 
 OptionTable<RunConfig> runOptions() {
@@ -226,6 +141,8 @@ OptionTable<RunConfig> runOptions() {
              "How estimates are compared with the truth.")
       .table("campaign", &RunConfig::campaign, campaignOptions(),
              "How many runs are taken together by `pos campaign`.")
+      .table("intervals", &RunConfig::intervals, intervalsOptions(),
+             "In which lock interval of the map's roadways the vehicle is; not evaluated where absent.")
       .list("estimators", &RunConfig::estimators, estimatorOptions(), "The estimators to run side by side.")
       .required()
       .check([](const RunConfig& config) {
@@ -233,6 +150,7 @@ OptionTable<RunConfig> runOptions() {
         requireUniqueSensors(config.sensors);
         requireOneInput(config);
         requireKnownBaseline(config);
+        requireKnownAids(config);
       });
 }
 
@@ -241,6 +159,7 @@ RunConfig validated(RunConfig config) {
   requireUniqueSensors(config.sensors);
   requireOneInput(config);
   requireKnownBaseline(config);
+  requireKnownAids(config);
   if (config.truth) withKeyPrefix("truth", [&] { requireTruthFile(*config.truth); });
   withKeyPrefix("faults", [&] { requireOrder(config.faults); });
   for (std::size_t i = 0; i < config.estimators.size(); ++i) {

@@ -232,11 +232,11 @@ TrafficOptions validated(TrafficOptions options) {
                                 .got = std::to_string(options.vehicles),
                                 .expected = "1 to 1000"});
   }
-  requireRate(options.missing_per_s, "missing_per_s");
-  requireRate(options.jump_per_s, "jump_per_s");
-  requireRate(options.vague_per_s, "vague_per_s");
-  requireRate(options.alarm_per_s, "alarm_per_s");
-  requireRate(options.restart_per_s, "restart_per_s");
+  requireRate(options.missing_per_s, "missing_rate_hz");
+  requireRate(options.jump_per_s, "jump_rate_hz");
+  requireRate(options.vague_per_s, "vague_rate_hz");
+  requireRate(options.alarm_per_s, "alarm_rate_hz");
+  requireRate(options.restart_per_s, "restart_rate_hz");
   if (!(options.stuck_after > 0.0) || !std::isfinite(options.stuck_after)) {
     throw ConfigError(Complaint{.what = "the time to a deadlock makes no sense",
                                 .key = "stuck_after_s",
