@@ -59,6 +59,7 @@ void addConfig(const Verbs& verbs);
 void addReport(const Verbs& verbs);
 void addSimulate(const Verbs& verbs);
 void addMap(const Verbs& verbs);
+void addLocks(const Verbs& verbs);
 void addVersion(const Verbs& verbs);
 
 }  // namespace pos::app

@@ -95,6 +95,7 @@ int run(int argc, char** argv) {
   pos::app::addCalibrate(verbs);
   pos::app::addInfo(verbs);
   pos::app::addMap(verbs);
+  pos::app::addLocks(verbs);
   pos::app::addConfig(verbs);
   pos::app::addReport(verbs);
   pos::app::addSimulate(verbs);

@@ -114,12 +114,12 @@ void requireAllPassed(const std::vector<eval::RequirementResult>& results, const
       .got = missed});
 }
 
-void refuseUnknownMetrics(const std::vector<std::string>& requirements,
-                          const std::vector<std::string>& estimators) {
+void refuseUnknownMetrics(const std::vector<std::string>& requirements, const io::RunConfig& config) {
   eval::RunSummary nothing_yet;
-  for (const std::string& name : estimators) {
+  for (const io::EstimatorEntry& entry : config.estimators) {
     nothing_yet.estimators.emplace_back();
-    nothing_yet.estimators.back().name = name;
+    nothing_yet.estimators.back().name = entry.name;
+    if (config.intervals) nothing_yet.estimators.back().intervals.emplace();
   }
   for (const std::string& text : requirements) {
     if (!eval::isOfASensor(text)) (void)eval::parseRequirement(text, nothing_yet);

@@ -50,7 +50,6 @@ void requireAllPassed(const std::vector<eval::RequirementResult>& results, const
 
 /// Throws UsageError for a requirement that no run of these estimators could answer, before the work is done.
 /// Figures of a sensor are left for later: only the log tells its sensors.
-void refuseUnknownMetrics(const std::vector<std::string>& requirements,
-                          const std::vector<std::string>& estimators);
+void refuseUnknownMetrics(const std::vector<std::string>& requirements, const io::RunConfig& config);
 
 }  // namespace pos::app

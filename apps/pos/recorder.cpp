@@ -22,9 +22,29 @@ Recorder::Recorder(const std::string& name, const std::string& type,
 void Recorder::openFiles(const io::RunFolder& folder) {
   files_ = std::make_unique<RecorderFiles>(
       RecorderFiles{io::TumWriter(folder.tum(name())), io::EstimateCsvWriter(folder.csv(name()))});
+  if (watch_) watch_->openFile(folder);
+}
+
+void Recorder::watchIntervals(std::shared_ptr<const IntervalGround> ground,
+                              const io::IntervalsConfig& config) {
+  watch_ = std::make_unique<IntervalWatch>(std::move(ground), config, name());
 }
 
 IngestReport Recorder::take(const Measurement& measurement) {
+  const io::PassageUse use = watch_ ? watch_->useOf(measurement) : io::PassageUse::AsTold;
+  if (use == io::PassageUse::AsTold) return ingest(measurement);
+  if (use == io::PassageUse::None) {
+    withhold(measurement, "switched off by intervals.passages");
+    return {.verdict = Verdict::Unsupported};
+  }
+  const auto fix = watch_->checked(measurement, estimator_->estimateAt(measurement.stamp));
+  if (fix) return ingest(*fix);
+  const IngestReport refused{.verdict = Verdict::Gated, .reason = "the vehicle is not beside that chamber"};
+  note(measurement, refused);
+  return refused;
+}
+
+IngestReport Recorder::ingest(const Measurement& measurement) {
   const auto before = std::chrono::steady_clock::now();
   const IngestReport report = estimator_->ingest(measurement);
   const auto spent = std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - before);
@@ -57,10 +77,19 @@ void Recorder::endEpoch(Stamp stamp) {
     files_->csv.write(*estimate, epoch_);
   }
   epoch_ = {};
+  if (!watch_) return;
+  watch_->take(*estimate);
+  const auto fix = watch_->offered(*estimate);
+  if (fix && ingest(*fix).verdict == Verdict::Unsupported) watch_->stopOffering();
+}
+
+std::vector<io::RunEvent> Recorder::takeEvents() {
+  return watch_ ? watch_->takeEvents() : std::vector<io::RunEvent>{};
 }
 
 eval::EstimatorRecord Recorder::finish() {
   record_.diagnostics = estimator_->diagnostics();
+  if (watch_) record_.intervals = watch_->finish();
   if (files_) {
     files_->tum.close();
     files_->csv.close();

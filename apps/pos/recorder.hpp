@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "interval_watch.hpp"
 #include "pos/estimation/estimator.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/run_folder.hpp"
@@ -27,6 +28,9 @@ class Recorder {
   void openFiles(const io::RunFolder& folder);
   /// Also sums the NIS of applied readings on a campaign's grid.
   void sumNisOn(const eval::TimeGrid& grid) { record_.nis.emplace(grid); }
+  /// Also says in which lock intervals the vehicle is, and aids the estimator as configured; before
+  /// openFiles.
+  void watchIntervals(std::shared_ptr<const IntervalGround> ground, const io::IntervalsConfig& config);
   /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator
   /// said.
   IngestReport take(const Measurement& measurement);
@@ -34,17 +38,21 @@ class Recorder {
   void withhold(const Measurement& measurement, std::string_view reason);
   /// All measurements with this stamp are in.
   void endEpoch(Stamp stamp);
+  /// What the watch over intervals has to tell since the last call.
+  std::vector<io::RunEvent> takeEvents();
   /// Closes the files and hands out the record.
   eval::EstimatorRecord finish();
 
   const std::string& name() const { return record_.name; }
 
  private:
+  IngestReport ingest(const Measurement& measurement);
   void note(const Measurement& measurement, const IngestReport& report);
 
   std::unique_ptr<estimation::Estimator> estimator_;
   eval::EstimatorRecord record_;
   std::unique_ptr<RecorderFiles> files_;
+  std::unique_ptr<IntervalWatch> watch_;
   Duration shortest_step_{};
   io::EpochVerdicts epoch_{};
 };

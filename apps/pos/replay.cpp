@@ -32,10 +32,12 @@ class Pass {
  public:
   Pass(const Inputs& inputs, const io::RunFolder* folder)
       : inputs_(inputs), sequencer_(sequencerLag(inputs.config)), faults_(rangeFaults(inputs.config)) {
+    if (inputs.config.intervals) result_.intervals = intervalGround(inputs.map, *inputs.config.intervals);
     for (const io::EstimatorEntry& entry : inputs.config.estimators) {
       recorders_.emplace_back(entry.name, std::string(estimation::typeName(entry.config)),
                               yardstick::makeAnyEstimator(entry.config, inputs.map),
                               inputs.config.record.max_rate);
+      if (result_.intervals) recorders_.back().watchIntervals(result_.intervals, *inputs.config.intervals);
       if (folder != nullptr) recorders_.back().openFiles(*folder);
       if (inputs.grid) recorders_.back().sumNisOn(*inputs.grid);
     }
@@ -104,7 +106,12 @@ class Pass {
 
   void endEpoch() {
     if (!epoch_) return;
-    for (Recorder& recorder : recorders_) recorder.endEpoch(*epoch_);
+    for (Recorder& recorder : recorders_) {
+      recorder.endEpoch(*epoch_);
+      for (const io::RunEvent& event : recorder.takeEvents()) {
+        if (events_) events_->write(event);
+      }
+    }
     epoch_.reset();
   }
 
@@ -159,6 +166,8 @@ eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {
   if (inputs.truth) summary.truth_path = eval::pathOf(*inputs.truth, replayed.first);
   eval::EvaluationOptions options = evaluationOptions(config.evaluation);
   options.grid = inputs.grid;
+  if (replayed.intervals) options.interval_scene = {replayed.intervals, &replayed.intervals->scene};
+  summary.interval_scene = options.interval_scene;
   for (const eval::EstimatorRecord& record : replayed.records) {
     summary.estimators.push_back(eval::summarise(record, truth ? &*truth : nullptr, replayed.first, options));
   }

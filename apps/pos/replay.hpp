@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "inputs.hpp"
+#include "interval_watch.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/run_folder.hpp"
@@ -20,6 +21,7 @@ struct Replayed {
   io::LogEnd log_end;
   io::LogTally tally;
   bool interrupted = false;
+  std::shared_ptr<const IntervalGround> intervals = {};  ///< null where intervals are not evaluated
 };
 
 /// Called now and then with the number of measurements so far and the stamp reached; false stops the pass.

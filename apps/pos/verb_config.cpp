@@ -4,6 +4,7 @@
 
 #include "common.hpp"
 #include "inputs.hpp"
+#include "pos/io/locks_config.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/run_config.hpp"
 #include "pos/io/scenario_yaml.hpp"
@@ -32,7 +33,7 @@ std::string reference() {
          "the files; do not edit.\n"
          "Units are in the keys.\n\n" +
          io::markdownReference(io::runOptions()) + "\n" + io::markdownReference(io::mapOptions()) + "\n" +
-         io::markdownReference(io::scenarioOptions());
+         io::markdownReference(io::scenarioOptions()) + "\n" + io::markdownReference(io::locksOptions());
 }
 
 }  // namespace
@@ -63,6 +64,8 @@ void addConfig(const Verbs& verbs) {
             [] { return io::jsonSchema(io::mapOptions()); });
   addWriter(*schema, "scenario", "Write the JSON Schema of a scenario",
             [] { return io::jsonSchema(io::scenarioOptions()); });
+  addWriter(*schema, "locks", "Write the JSON Schema of a configuration of locks",
+            [] { return io::jsonSchema(io::locksOptions()); });
   addWriter(*verb, "init", "Write an example configuration with every key explained",
             [] { return io::exampleRunConfig(); });
 }

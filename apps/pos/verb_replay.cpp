@@ -48,9 +48,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
     voice.say("nothing was run: the configuration, the map and the truth are in order");
     return ExitCode::Ok;
   }
-  std::vector<std::string> names;
-  for (const io::EstimatorEntry& entry : inputs.config.estimators) names.push_back(entry.name);
-  refuseUnknownMetrics(options.outputs.requirements, names);
+  refuseUnknownMetrics(options.outputs.requirements, inputs.config);
   const auto folder = openRunFolder(options.outputs);
   watchInterrupts();
   Replayed result = [&] {

@@ -13,20 +13,17 @@ namespace {
 /// Ways between all ends, and the map's own routes in both directions (a round trip has no shortest way).
 std::vector<Way> allWays(const testing::LockMine& mine) {
   std::vector<Way> ways = mine.ways();
-  for (const map::Route& route : mine.network.map().routes) {
-    const map::RouteLine line(mine.network, route);
-    ways.push_back(mine.locks.way(line));
-    ways.push_back(mine.locks.way(line.reversed()));
-  }
+  const std::vector<Way> routes = traffic::waysOfRoutes(mine.network, mine.locks);
+  ways.insert(ways.end(), routes.begin(), routes.end());
   return ways;
 }
 
-void campaign(const testing::LockMine& mine, const testing::TrafficOptions& options) {
-  const auto result = testing::LockTraffic(mine.locks.site(), allWays(mine), options).run();
+void campaign(const testing::LockMine& mine, const traffic::TrafficOptions& options) {
+  const auto result = traffic::runTraffic(mine.locks.site(), allWays(mine), {}, options);
   testing::print(result);
   testing::expectSafe(result);
   EXPECT_GE(result.tally.requests, options.requests);
-  EXPECT_GE(testing::lockSuccess(result), 0.995);
+  EXPECT_GE(result.lockSuccess(), 0.995);
 }
 
 }  // namespace

@@ -2,159 +2,20 @@
 /// Scenario B-E5 of spec A section 7: a leg with two lanes, a branch, a bend, chamber passages of which some
 /// are missed or name the wrong chamber, and a dead-reckoning filter with the errors of encoders and a gyro.
 
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "pos/core/belief.hpp"
-#include "pos/core/chi_square.hpp"
 #include "pos/core/random.hpp"
-#include "pos/filters/ekf.hpp"
 #include "pos/interval/error_bound.hpp"
 #include "pos/interval/interval_tracker.hpp"
 #include "pos/interval/passages.hpp"
 #include "pos/interval/road_aid.hpp"
+#include "support/drift_filter.hpp"
+#include "support/interval_demo.hpp"
 
 namespace pos::testing {
-
-inline constexpr double kMainWidth = 7.0;  // m, two lanes
-inline constexpr double kLane = 0.25 * kMainWidth;
-/// m driven to the middle of the turn into the branch: the corner less the tangent, and half of the arc.
-inline const double kForkDriven =
-    250.0 - kLane / std::tan(kPi / 3.0) - 15.0 * std::tan(kPi / 6.0) + 15.0 * kPi / 6.0;
-
-inline void addChamber(map::TunnelMap& map, const std::string& id, const std::string& road, double at,
-                       map::Side side) {
-  map::Chamber chamber;
-  chamber.id = id;
-  chamber.place = {road, at};
-  chamber.side = side;
-  chamber.length = 15.0;
-  chamber.depth = 3.0;
-  map.chambers.push_back(chamber);
-}
-
-/// Main road: 600 m straight, a left bend of 15 m radius, 300 m; branch of 60 degrees to the left at 250 m.
-inline std::shared_ptr<const map::TunnelMap> intervalDemo() {
-  auto demo = std::make_shared<map::TunnelMap>();
-  demo->name = "interval demo";
-  map::Roadway main{.id = "main", .width = kMainWidth, .lanes = 2};
-  main.centreline = {
-      {{0.0, 0.0, 0.0}}, {{600.0, 0.0, 0.0}, 0.5 * kPi}, {{615.0, 15.0, 0.0}}, {{615.0, 315.0, 0.0}}};
-  map::Roadway branch{.id = "branch", .width = 4.5, .lanes = 1};
-  branch.centreline = {{{250.0, 0.0, 0.0}}, {{400.0, 300.0 * std::sin(kPi / 3.0), 0.0}}};
-  demo->roadways = {main, branch};
-  demo->junctions = {{"J", "", {{"main", 250.0}, {"branch", 0.0}}}};
-  demo->bends = {{"B", "", {"main", 600.0, 600.0 + 7.5 * kPi}}};
-  for (const int at : {50, 150, 350, 450, 550, 650, 750, 850})
-    addChamber(*demo, "R" + std::to_string(at), "main", at, map::Side::Right);
-  for (const int at : {100, 200, 300, 400, 500, 700, 800, 900})
-    addChamber(*demo, "L" + std::to_string(at), "main", at, map::Side::Left);
-  for (const int at : {60, 140, 220})
-    addChamber(*demo, "S" + std::to_string(at), "branch", at, map::Side::Right);
-  return demo;
-}
-
-/// Where the vehicle truly drives, as a line without width: in its lane, and round the corner on an arc.
-inline map::Roadway drivenLine(bool into_branch) {
-  map::Roadway line{.id = "driven"};
-  if (!into_branch) {
-    line.centreline = {{{0.0, -kLane, 0.0}},
-                       {{600.0, -kLane, 0.0}, 0.5 * kPi},
-                       {{615.0 + kLane, 15.0, 0.0}},
-                       {{615.0 + kLane, 310.0, 0.0}}};
-    return line;
-  }
-  const double fork = kPi / 3.0;
-  const double corner = 250.0 - kLane / std::tan(fork);
-  const double cut = 15.0 * std::tan(0.5 * fork);
-  const Eigen::Vector3d out(std::cos(fork), std::sin(fork), 0.0);
-  const Eigen::Vector3d at(corner, -kLane, 0.0);
-  line.centreline = {
-      {{0.0, -kLane, 0.0}}, {{corner - cut, -kLane, 0.0}, fork}, {at + cut * out}, {at + 295.0 * out}};
-  return line;
-}
-
-/// x, y (m), yaw (rad), odometer scale, gyro bias (rad/s).
-struct DriftState {
-  static constexpr int kDof = 5;
-  Vector<5> values = Vector<5>::Zero();
-};
-inline DriftState plus(const DriftState& x, const Vector<5>& d) {
-  DriftState moved{x.values + d};
-  moved.values[2] = wrapAngle(moved.values[2]);
-  return moved;
-}
-inline Vector<5> minus(const DriftState& a, const DriftState& b) {
-  Vector<5> d = a.values - b.values;
-  d[2] = wrapAngle(d[2]);
-  return d;
-}
-
-struct DriftNoise {
-  double scale = 0.005;               ///< odometer, constant over a run
-  double odometer = 0.02;             ///< m / sqrt(m)
-  double gyro_bias = radians(0.005);  ///< rad/s, constant over a run
-  double gyro = radians(0.02);        ///< rad / sqrt(s)
-  double position = 0.3;              ///< m, at the start
-  double heading = radians(0.5);      ///< at the start
-};
-
-/// Encoder and gyro with their scale and bias as states; takes fixes through `ingest`.
-class DriftFilter {
- public:
-  DriftFilter(const DriftNoise& noise, const Pose2& start) : noise_(noise) {
-    belief_.mean.values << start.x, start.y, start.yaw, 0.0, 0.0;
-    belief_.covariance =
-        Vector<5>(noise.position * noise.position, noise.position * noise.position,
-                  noise.heading * noise.heading, noise.scale * noise.scale, noise.gyro_bias * noise.gyro_bias)
-            .asDiagonal();
-  }
-  void predict(double odometer, double turn, double dt) {
-    DriftState& x = belief_.mean;
-    const double way = odometer / (1.0 + x.values[3]);
-    const double dpsi = turn - x.values[4] * dt;
-    const double psi = x.values[2] + 0.5 * dpsi;
-    filters::Step<DriftState> step{x, Matrix<5, 5>::Identity(), Matrix<5, 5>::Zero()};
-    step.next.values[0] += way * std::cos(psi);
-    step.next.values[1] += way * std::sin(psi);
-    step.next.values[2] = wrapAngle(x.values[2] + dpsi);
-    const Eigen::Vector2d t(std::cos(psi), std::sin(psi));
-    const Eigen::Vector2d n(-t.y(), t.x());
-    step.F.block<2, 1>(0, 2) = way * n;
-    step.F.block<2, 1>(0, 3) = -way / (1.0 + x.values[3]) * t;
-    step.F.block<2, 1>(0, 4) = -0.5 * dt * way * n;
-    step.F(2, 4) = -dt;
-    step.Qd.topLeftCorner<2, 2>() = noise_.odometer * noise_.odometer * std::abs(way) * t * t.transpose();
-    step.Qd(2, 2) = noise_.gyro * noise_.gyro * dt;
-    filters::predict(belief_, step);
-  }
-  Verdict ingest(const PassageFix& fix) {
-    filters::Innovation<DriftState, 2> at{fix.p_map.head<2>() - belief_.mean.values.head<2>(),
-                                          Matrix<2, 5>::Zero()};
-    at.H.leftCols<2>().setIdentity();
-    const Matrix<2, 2> R = fix.covariance.topLeftCorner<2, 2>();
-    const auto done = filters::correct(belief_, at, R, filters::Gate{chiSquareQuantile(0.999, 2)});
-    if (done.verdict != Verdict::Applied || !fix.yaw) return done.verdict;
-    filters::Innovation<DriftState, 1> heading{Vector<1>(wrapAngle(*fix.yaw - belief_.mean.values[2])),
-                                               Matrix<1, 5>::Zero()};
-    heading.H(0, 2) = 1.0;
-    return filters::correct(belief_, heading, Matrix<1, 1>(*fix.yaw_sigma * *fix.yaw_sigma),
-                            filters::Gate{chiSquareQuantile(0.999, 1)})
-        .verdict;
-  }
-  Estimate estimate(Stamp stamp) const {
-    const Vector<5>& x = belief_.mean.values;
-    return planarEstimate(stamp, {x[0], x[1], x[2]}, belief_.covariance.topLeftCorner<3, 3>());
-  }
-  double tracePosition() const { return belief_.covariance.trace(); }
-
- private:
-  DriftNoise noise_;
-  Belief<DriftState> belief_;
-};
 
 enum class Aiding { None, Chambers, ChambersAndRoad };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pos/interval/lock_map.hpp"
+#include "pos/traffic/ways.hpp"
 
 namespace pos::testing {
 
@@ -57,23 +58,7 @@ struct LockMine {
         locks(network, graph, intervals, interval::LockMapRules{}) {}
 
   /// Ways between all open ends and portals, in both directions.
-  std::vector<interval::Way> ways() const {
-    std::vector<map::TunnelPoint> ends;
-    for (const map::GraphEdge& edge : graph.edges()) {
-      if (graph.nodes()[edge.node_from].kind != map::GraphNode::Kind::Junction)
-        ends.push_back({edge.roadway, edge.from, 0.0, 0.0});
-      if (graph.nodes()[edge.node_to].kind != map::GraphNode::Kind::Junction)
-        ends.push_back({edge.roadway, edge.to, 0.0, 0.0});
-    }
-    std::vector<interval::Way> ways;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      for (std::size_t j = 0; j < ends.size(); ++j) {
-        if (i == j) continue;
-        if (const auto route = graph.shortestRoute(ends[i], ends[j])) ways.push_back(locks.way(*route));
-      }
-    }
-    return ways;
-  }
+  std::vector<interval::Way> ways() const { return traffic::waysBetweenEnds(graph, locks); }
 
   map::Network network;
   map::RoadGraph graph;

@@ -6,17 +6,11 @@
 #include <cstdio>
 #include <numeric>
 
-#include "support/lock_traffic.hpp"
+#include "pos/traffic/lock_traffic.hpp"
 
 namespace pos::testing {
 
-/// Share (0..1) of the locks against which the audit has found nothing.
-inline double lockSuccess(const TrafficResult& r) {
-  return 1.0 -
-         static_cast<double>(std::min(r.findings.size(), r.tally.locks)) / static_cast<double>(r.tally.locks);
-}
-
-inline void expectSafe(const TrafficResult& r) {
+inline void expectSafe(const traffic::TrafficResult& r) {
   EXPECT_EQ(r.opposing, 0u);
   EXPECT_EQ(r.deadlocks, 0u) << r.jam;
   for (std::size_t i = 0; i < std::min<std::size_t>(r.findings.size(), 5); ++i) {
@@ -30,14 +24,14 @@ inline void expectSafe(const TrafficResult& r) {
   EXPECT_LE(static_cast<double>(r.tally.trespasses), 1.0 + 1e-5 * static_cast<double>(r.tally.events));
 }
 
-inline void print(const TrafficResult& r) {
+inline void print(const traffic::TrafficResult& r) {
   std::vector<double> waits = r.tally.waits;
   std::sort(waits.begin(), waits.end());
   const double mean = std::accumulate(waits.begin(), waits.end(), 0.0) / static_cast<double>(waits.size());
   std::printf("requests %zu, granted %zu (at once %.1f %%), locks %zu, without finding %.3f %%\n",
               r.tally.requests, r.tally.granted,
               100.0 * static_cast<double>(r.tally.granted_at_once) / static_cast<double>(r.tally.granted),
-              r.tally.locks, 100.0 * lockSuccess(r));
+              r.tally.locks, 100.0 * r.lockSuccess());
   std::printf("opposing seconds %zu, deadlocks %zu, findings %zu, trespasses %zu\n", r.opposing, r.deadlocks,
               r.findings.size(), r.tally.trespasses);
   std::printf("waiting: mean %.1f s, median %.1f s, 95 %% %.1f s, longest %.0f s\n", mean,

@@ -20,6 +20,7 @@ std::optional<double> honestValue(const std::string& metric) {
 }
 
 bool moreIsBetter(const std::string& metric) {
+  if (metric.starts_with("intervals.")) return metric.find("share") != std::string::npos;
   return metric.starts_with("fraction_under.") || metric == "coverage" || metric.ends_with(".applied");
 }
 

@@ -80,6 +80,24 @@ Metrics verdictMetrics(const VerdictCounts& verdicts) {
   return all;
 }
 
+Metrics intervalMetrics(const IntervalFigures& f) {
+  Metrics all;
+  all["intervals.right_share"] = f.rightShare();
+  all["intervals.right_share_clear"] = f.rightShareClear();
+  all["intervals.matched_share"] = f.matched_share;
+  all["intervals.entry_time_rmse_s"] = f.entryTimeRmse();
+  all["intervals.branch_past_m"] = f.record.branch_past;
+  const auto put = [&](const char* name, std::uint64_t count) {
+    all[std::string("intervals.") + name] = static_cast<double>(count);
+  };
+  put("entries", f.record.entries);
+  put("exits", f.record.exits);
+  put("branches", f.record.branches);
+  put("lost", f.record.lost);
+  put("passages_refused", f.record.passages_refused);
+  return all;
+}
+
 std::string nearest(std::string_view wanted, const std::vector<std::string>& candidates) {
   const auto best = std::min_element(
       candidates.begin(), candidates.end(),
@@ -220,6 +238,7 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
   all.merge(neesMetrics("nees_pose", evaluation ? &evaluation->consistency.nees_pose : nullptr));
   all.merge(verdictMetrics(estimator.verdicts));
   all["coverage"] = evaluation ? std::optional(evaluation->association.coverage) : std::nullopt;
+  if (estimator.intervals) all.merge(intervalMetrics(*estimator.intervals));
   const bool timed = estimator.compute.count() > 0;
   const auto put = [&](const char* key, double value) {
     all[std::string("compute.") + key] = timed ? std::optional(value) : std::nullopt;

@@ -12,8 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of a replay and of a simulation.
-constexpr std::array kRunFiles{"run.json",   "events.csv", "summary.json",   "report.html",
-                               "log.rawlog", "map.yaml",   "grid.gridmap.gz"};
+constexpr std::array kRunFiles{"run.json",   "events.csv",       "summary.json",    "report.html",
+                               "log.rawlog", "map.yaml",         "grid.gridmap.gz", "audit.csv",
+                               "scene.json", "time_distance.svg"};
 
 [[noreturn]] void refuseFolder(const fs::path& folder, const std::string& what, const std::string& got,
                                const std::string& suggestion) {
@@ -24,7 +25,8 @@ constexpr std::array kRunFiles{"run.json",   "events.csv", "summary.json",   "re
                               .suggestion = suggestion});
 }
 
-/// The files an earlier run left in the folder: the fixed names, and each x.tum with its x.csv.
+/// The files an earlier run left in the folder: the fixed names, and each x.tum with its x.csv and
+/// x.intervals.csv.
 std::vector<fs::path> earlierRun(const fs::path& folder) {
   std::vector<fs::path> files;
   files.reserve(kRunFiles.size());
@@ -33,6 +35,7 @@ std::vector<fs::path> earlierRun(const fs::path& folder) {
     if (entry.path().extension() != ".tum" || !entry.is_regular_file()) continue;
     files.push_back(entry.path());
     files.push_back(fs::path(entry.path()).replace_extension(".csv"));
+    files.push_back(fs::path(entry.path()).replace_extension(".intervals.csv"));
   }
   return files;
 }
@@ -72,6 +75,11 @@ RunFolder RunFolder::create(const fs::path& folder, ExistingRun existing) {
 fs::path RunFolder::tum(const std::string& estimator) const {
   requireFileName(estimator);
   return folder_ / (estimator + ".tum");
+}
+
+fs::path RunFolder::intervalsCsv(const std::string& estimator) const {
+  requireFileName(estimator);
+  return folder_ / (estimator + ".intervals.csv");
 }
 
 fs::path RunFolder::csv(const std::string& estimator) const {

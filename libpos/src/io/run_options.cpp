@@ -126,6 +126,8 @@ OptionTable<RunConfig> runOptions() {
              "How estimates are compared with the truth.")
       .table("campaign", &RunConfig::campaign, campaignOptions(),
              "How many runs are taken together by `pos campaign`.")
+      .table("intervals", &RunConfig::intervals, intervalsOptions(),
+             "In which lock interval of the map's roadways the vehicle is; not evaluated where absent.")
       .list("estimators", &RunConfig::estimators, estimatorOptions(), "The estimators to run side by side.")
       .required()
       .check(requireWhole);

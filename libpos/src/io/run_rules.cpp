@@ -52,6 +52,22 @@ void requireKnownBaseline(const RunConfig& config) {
          "one of: " + text::joined(names));
 }
 
+/// Every estimator once in intervals.estimators, and only such as there are.
+void requireKnownAids(const RunConfig& config) {
+  if (!config.intervals) return;
+  std::vector<std::string> names;
+  for (const EstimatorEntry& entry : config.estimators) names.push_back(entry.name);
+  std::vector<std::string> seen;
+  for (const IntervalAid& aid : config.intervals->estimators) {
+    const std::string key = indexed("intervals.estimators", seen.size()) + ".estimator";
+    if (std::find(names.begin(), names.end(), aid.estimator) == names.end())
+      refuse("the run has no such estimator", key, aid.estimator, "one of: " + text::joined(names));
+    if (std::find(seen.begin(), seen.end(), aid.estimator) != seen.end())
+      refuse("an estimator is listed twice", key, aid.estimator, "every estimator once");
+    seen.push_back(aid.estimator);
+  }
+}
+
 /// A run has one input: a recording with its truth, or a scenario that knows its own.
 void requireOneInput(const RunConfig& config) {
   if (!config.scenario) return;
@@ -90,6 +106,7 @@ void requireWhole(const RunConfig& config) {
   requireUniqueSensors(config.sensors);
   requireOneInput(config);
   requireKnownBaseline(config);
+  requireKnownAids(config);
 }
 
 RunConfig validated(RunConfig config) {

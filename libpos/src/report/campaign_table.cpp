@@ -49,6 +49,20 @@ Column spreadColumn(const std::string& title, const std::string& metric) {
   return column;
 }
 
+/// A share that is best when it is large.
+Column shareColumn(const std::string& title, const std::string& metric) {
+  const auto mean = meanColumn(title, metric).cost;
+  return {title,
+          [mean](const EstimatorOverRuns& e) {
+            const auto value = mean(e);
+            return value ? percent(*value) : std::string(kNoValue);
+          },
+          [mean](const EstimatorOverRuns& e) -> std::optional<double> {
+            const auto value = mean(e);
+            return value ? std::optional(-*value) : std::nullopt;
+          }};
+}
+
 Column worstColumn(const CampaignSummary& campaign, const std::string& title, const std::string& metric) {
   return {title,
           [&campaign, metric](const EstimatorOverRuns& e) {
@@ -106,6 +120,15 @@ std::vector<Column> columns(const CampaignSummary& campaign) {
                           meanColumn("yaw rmse deg", "errors.yaw.rmse"),
                           aneesColumn()};
   if (campaign.estimators.size() > 1) all.push_back(againstBaseline(campaign));
+  const bool intervals =
+      std::any_of(campaign.estimators.begin(), campaign.estimators.end(),
+                  [](const auto& e) { return found(e, "intervals.right_share") != nullptr; });
+  if (!intervals) return all;
+  all.push_back(shareColumn("right set", "intervals.right_share"));
+  all.push_back(shareColumn("right set off boundaries", "intervals.right_share_clear"));
+  Column past = worstColumn(campaign, "branch decided past m [run]", "intervals.branch_past_m");
+  past.cost = {};
+  all.push_back(past);
   return all;
 }
 

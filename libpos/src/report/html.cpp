@@ -78,6 +78,41 @@ std::string verdictSection(const eval::RunSummary& run) {
          "honest filter gives; larger means that the sensor is noisier than its setting.</p>\n";
 }
 
+std::string shareText(const std::optional<double>& share) {
+  return share ? percent(*share) : std::string(kNoValue);
+}
+
+std::string intervalRow(const eval::EstimatorSummary& estimator) {
+  const eval::IntervalFigures& f = *estimator.intervals;
+  const auto rmse = f.entryTimeRmse();
+  std::string html = "<tr><th scope=\"row\">" + escaped(estimator.name) + "</th>";
+  html += element("td", shareText(f.rightShare())) + element("td", shareText(f.rightShareClear()));
+  html += element("td", percent(f.matched_share)) + element("td", grouped(f.record.entries));
+  html +=
+      element("td", grouped(f.record.exits)) + element("td", rmse ? rounded(*rmse) : std::string(kNoValue));
+  html += element("td", f.record.branches > 0 ? rounded(f.record.branch_past) : std::string(kNoValue));
+  return html + element("td", grouped(f.record.lost)) + element("td", grouped(f.record.passages_refused)) +
+         "</tr>\n";
+}
+
+std::string intervalSection(const eval::RunSummary& run) {
+  std::string rows;
+  for (const eval::EstimatorSummary& estimator : run.estimators) {
+    if (estimator.intervals) rows += intervalRow(estimator);
+  }
+  if (rows.empty()) return "";
+  return "<h2 id=\"intervals\">Lock intervals</h2>\n<div class=\"scroll\"><table><thead><tr>"
+         "<th scope=\"col\">estimator</th><th>right set</th><th>right set off boundaries</th>"
+         "<th>on a roadway</th><th>entries</th><th>exits</th><th>entry time rmse s</th>"
+         "<th>branch decided past m</th><th>lost</th><th>passages refused</th></tr></thead><tbody>\n" +
+         rows +
+         "</tbody></table></div>\n<p class=\"note\">Right set: share of the time in which exactly the "
+         "intervals "
+         "that hold the vehicle were named (those at least half probable); off boundaries leaves out what is "
+         "within 3 sigma of one. Branch decided past: farthest beyond a junction before its way was "
+         "known.</p>\n";
+}
+
 /// Decimals that show two digits of sigma, or four digits of the value where there is none.
 int decimalsFor(const NamedValue& v) {
   const bool has_sigma = v.sigma > 0.0 && std::isfinite(v.sigma);
@@ -108,7 +143,8 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 
 std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
-  html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + figureSection(figures(run));
+  html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
+  html += figureSection(figures(run));
   html += verdictSection(run) + diagnosticsSection(run);
   return html + configSection(resolved_config) + pageEnd();
 }

@@ -176,6 +176,21 @@ Json computeJson(const eval::ComputeStats& compute, Duration log_span) {
           {"real_time_factor", value(compute.realTimeFactor(log_span))}};
 }
 
+Json intervalsJson(const eval::IntervalFigures& f) {
+  return {{"right_share", number(f.rightShare())},
+          {"right_share_clear", number(f.rightShareClear())},
+          {"matched_share", f.matched_share},
+          {"judged", f.judged},
+          {"judged_clear", f.judged_clear},
+          {"entry_time_rmse_s", number(f.entryTimeRmse())},
+          {"entries", f.record.entries},
+          {"exits", f.record.exits},
+          {"branches", f.record.branches},
+          {"branch_past_m", number(f.record.branch_past)},
+          {"lost", f.record.lost},
+          {"passages_refused", f.record.passages_refused}};
+}
+
 Json estimatorJson(const eval::EstimatorSummary& estimator) {
   Json e = {{"type", estimator.type}, {"estimates", estimator.estimates}};
   const auto& evaluation = estimator.evaluation;
@@ -189,6 +204,7 @@ Json estimatorJson(const eval::EstimatorSummary& estimator) {
   e["relative"] = evaluation ? relativeJson(evaluation->relative) : Json::array();
   e["residuals"] = residualsJson(estimator.residuals);
   e["diagnostics"] = diagnosticsJson(estimator.diagnostics);
+  if (estimator.intervals) e["intervals"] = intervalsJson(*estimator.intervals);
   return e;
 }
 

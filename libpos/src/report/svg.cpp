@@ -52,7 +52,7 @@ svg.pos{font:13px system-ui,-apple-system,"Segoe UI","DejaVu Sans",sans-serif;
 .pos .s4{stroke:var(--c4)}.pos .s5{stroke:var(--c5)}
 .pos .f0{fill:var(--c0)}.pos .f1{fill:var(--c1)}.pos .f2{fill:var(--c2)}.pos .f3{fill:var(--c3)}
 .pos .f4{fill:var(--c4)}.pos .f5{fill:var(--c5)}.pos .fm{fill:var(--frame)}.pos .fg{fill:var(--grid)}
-.pos .faint{fill-opacity:.45}
+.pos .faint{fill-opacity:.45}.pos .lock{fill-opacity:.22;stroke-width:1;stroke-opacity:.55}.pos .vehicle{stroke:var(--ink);stroke-width:1.1}.pos .bracket{stroke-width:2;stroke-opacity:1}
 .pos .d1{stroke-dasharray:7 3}.pos .d2{stroke-dasharray:2 3}
 </style>
 )";

@@ -12,6 +12,7 @@
 #include "pos/eval/compute_stats.hpp"
 #include "pos/eval/consistency.hpp"
 #include "pos/eval/errors.hpp"
+#include "pos/eval/interval_figures.hpp"
 #include "pos/eval/relative_error.hpp"
 #include "pos/eval/residuals.hpp"
 #include "pos/eval/statistics.hpp"
@@ -75,6 +76,7 @@ struct EstimatorSummary {
   std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
   std::vector<GridCell> cells = {};  ///< on the grid of the options; empty without one or without truth
   std::vector<PathPoint> path;
+  std::optional<IntervalFigures> intervals = {};  ///< where intervals are evaluated
 
   /// xy rmse, or nothing without truth or matches.
   std::optional<double> rmseXy() const;
@@ -100,6 +102,7 @@ struct RunSummary {
   std::vector<PathPoint> truth_path;
   std::shared_ptr<const map::TunnelMap> tunnel_map;  ///< for drawing; may be null
   std::vector<EstimatorSummary> estimators;
+  std::shared_ptr<const IntervalScene> interval_scene = {};  ///< null where intervals are not evaluated
 
   /// The estimator with the smallest xy rmse; without truth the first. Null when there is none.
   const EstimatorSummary* best() const;
@@ -113,6 +116,7 @@ struct EvaluationOptions {
   double truth_sigma = 0.0;        ///< m per axis, the truth's own; enters the NEES only
   std::size_t plot_points = 2000;  ///< most points of one drawn series
   std::optional<TimeGrid> grid;    ///< also look at the errors at these moments
+  std::shared_ptr<const IntervalScene> interval_scene = {};  ///< needed where intervals were recorded
 };
 
 /// What a run recorded of one estimator.
@@ -126,6 +130,7 @@ struct EstimatorRecord {
   Diagnostics diagnostics;
   std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
   std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
+  std::optional<IntervalRecord> intervals = {};      ///< where intervals are evaluated
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pos/io/estimator_options.hpp"
+#include "pos/io/interval_options.hpp"
 
 namespace pos::io {
 
@@ -105,6 +106,7 @@ struct RunConfig {
   std::vector<SensorConfig> sensors;
   EvaluationConfig evaluation;
   CampaignConfig campaign;
+  std::optional<IntervalsConfig> intervals = {};  ///< absent: intervals are not evaluated
   std::vector<EstimatorEntry> estimators;
 
   bool operator==(const RunConfig&) const = default;

@@ -35,6 +35,8 @@ class RunFolder {
   /// (letters, digits, '_', '-', '.'; not "events").
   std::filesystem::path tum(const std::string& estimator) const;
   std::filesystem::path csv(const std::string& estimator) const;
+  /// <estimator>.intervals.csv.
+  std::filesystem::path intervalsCsv(const std::string& estimator) const;
 
  private:
   explicit RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
