@@ -47,30 +47,6 @@ SlipConfig validated(SlipConfig config) {
   return config;
 }
 
-ins::StandstillConfig validated(ins::StandstillConfig config) {
-  requirePositive(config.window, "window_s");
-  requirePositive(config.force_sigma, "force_sigma_m_per_s2");
-  requirePositive(config.rate_sigma, "rate_sigma_deg_per_s");
-  requirePositive(config.threshold, "threshold");
-  requirePositive(config.gravity, "gravity_m_per_s2");
-  return config;
-}
-
-ins::OdometerConfig validated(ins::OdometerConfig config) {
-  requireNotNegative(config.wheel_radius, "wheel_radius_m");
-  requireNotNegative(config.track, "track_m");
-  requireNotNegative(config.ticks_per_turn, "ticks_per_turn");
-  if (config.ticks_per_turn > 0.0 && !(config.wheel_radius > 0.0)) {
-    refuse("ticks say nothing without the wheel's radius", "wheel_radius_m",
-           std::to_string(config.wheel_radius), "> 0");
-  }
-  if (config.counter_bits < 1 || config.counter_bits > 62) {
-    refuse("no counter has this width", "counter_bits", std::to_string(config.counter_bits), "1 to 62");
-  }
-  requireNotNegative(config.noise_per_sqrt_m, "noise_m_per_sqrt_m");
-  return config;
-}
-
 HeadingFilterConfig validated(HeadingFilterConfig config) {
   requireNotNegative(config.level_walk, "level_walk_deg_per_sqrt_s");
   requirePositive(config.level_sigma, "level_sigma_deg");
@@ -87,8 +63,8 @@ SinsDrConfig validated(SinsDrConfig config) {
   requireValid(config.start, "start");
   requireValid(config.imu, "imu");
   requireValid(config.alignment, "alignment");
-  under("standstill", [&] { (void)validated(config.standstill); });  // of another namespace
-  under("odometer", [&] { (void)validated(config.odometer); });
+  requireValid(config.standstill, "standstill");
+  requireValid(config.odometer, "odometer");
   requireValid(config.slip, "slip");
   if (config.start.mode != StartMode::Known && config.start.mode != StartMode::AtTruth) {
     refuse("inertial unit and wheels cannot find position and heading by themselves", "start.mode", "",

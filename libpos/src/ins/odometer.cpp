@@ -2,7 +2,24 @@
 
 #include <cmath>
 
+#include "pos/core/config_checks.hpp"
+
 namespace pos::ins {
+
+OdometerConfig validated(OdometerConfig config) {
+  requireNotNegative(config.wheel_radius, "wheel_radius_m");
+  requireNotNegative(config.track, "track_m");
+  requireNotNegative(config.ticks_per_turn, "ticks_per_turn");
+  if (config.ticks_per_turn > 0.0 && !(config.wheel_radius > 0.0)) {
+    refuse("ticks say nothing without the wheel's radius", "wheel_radius_m",
+           std::to_string(config.wheel_radius), "> 0");
+  }
+  if (config.counter_bits < 1 || config.counter_bits > 62) {
+    refuse("no counter has this width", "counter_bits", std::to_string(config.counter_bits), "1 to 62");
+  }
+  requireNotNegative(config.noise_per_sqrt_m, "noise_m_per_sqrt_m");
+  return config;
+}
 
 std::int64_t unwrapped(std::int64_t now, std::int64_t before, int bits) {
   const std::int64_t span = std::int64_t{1} << bits;

@@ -1,6 +1,17 @@
 #include "pos/ins/standstill.hpp"
 
+#include "pos/core/config_checks.hpp"
+
 namespace pos::ins {
+
+StandstillConfig validated(StandstillConfig config) {
+  requirePositive(config.window, "window_s");
+  requirePositive(config.force_sigma, "force_sigma_m_per_s2");
+  requirePositive(config.rate_sigma, "rate_sigma_deg_per_s");
+  requirePositive(config.threshold, "threshold");
+  requirePositive(config.gravity, "gravity_m_per_s2");
+  return config;
+}
 
 void StandstillDetector::add(const ImuIncrement& sample) {
   if (!(sample.dt > 0.0)) return;

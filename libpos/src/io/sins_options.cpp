@@ -14,7 +14,6 @@ using estimation::SlipConfig;
 using filters::NoiseForm;
 
 constexpr auto kValid = [](const auto& config) { return validated(config); };
-constexpr auto kValidIns = [](const auto& config) { return estimation::validated(config); };
 
 /// Three keys, x forward, y left, z up, of one place on the body.
 OptionTable<Eigen::Vector3d> placeOptions(const std::string& title) {
@@ -76,7 +75,7 @@ OptionTable<ins::StandstillConfig> standstillOptions() {
       .number("threshold", &Config::threshold, between(0.1, 10000),
               "The statistic is about 6 at rest; below this the vehicle stands.")
       .number("gravity_m_per_s2", &Config::gravity, between(9, 10.5), "Gravity of the place.")
-      .check(kValidIns);
+      .check(kValid);
 }
 
 OptionTable<ins::OdometerConfig> odometerOptions() {
@@ -90,7 +89,7 @@ OptionTable<ins::OdometerConfig> odometerOptions() {
       .integer("counter_bits", &Config::counter_bits, between(1, 62), "Width of the counters.")
       .number("noise_m_per_sqrt_m", &Config::noise_per_sqrt_m, between(0, 10),
               "How the error of a wheel's way grows.")
-      .check(kValidIns);
+      .check(kValid);
 }
 
 OptionTable<SlipConfig> slipOptions() {

@@ -118,7 +118,5 @@ AlignmentConfig validated(AlignmentConfig config);
 SlipConfig validated(SlipConfig config);
 HeadingFilterConfig validated(HeadingFilterConfig config);
 SinsDrConfig validated(SinsDrConfig config);
-ins::StandstillConfig validated(ins::StandstillConfig config);
-ins::OdometerConfig validated(ins::OdometerConfig config);
 
 }  // namespace pos::estimation

@@ -19,6 +19,9 @@ struct OdometerConfig {
   bool operator==(const OdometerConfig&) const = default;
 };
 
+/// The same, or ConfigError.
+OdometerConfig validated(OdometerConfig config);
+
 /// Distances the two wheels rolled, m.
 struct WheelWay {
   double left = 0.0;

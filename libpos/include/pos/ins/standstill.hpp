@@ -26,6 +26,9 @@ struct StandstillConfig {
   bool operator==(const StandstillConfig&) const = default;
 };
 
+/// The same, or ConfigError.
+StandstillConfig validated(StandstillConfig config);
+
 class StandstillDetector {
  public:
   explicit StandstillDetector(const StandstillConfig& config) : config_(config) {}
