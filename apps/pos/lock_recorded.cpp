@@ -50,6 +50,7 @@ class Recorded {
     for (std::size_t i = 0; i < config.vehicles.size(); ++i) {
       const io::LockVehicle& v = config.vehicles[i];
       const map::RouteLine line = yard.route(v.route);
+      max_speeds_.push_back(v.max_speed);
       drivers_.push_back({v.reversed ? line.reversed() : line, yard.ways()[i]});
       for (const Estimate& estimate : readPositions(v.file)) positions_.push_back({i, estimate});
     }
@@ -120,7 +121,7 @@ class Recorded {
       tell(interval::Request{vehicle});
     }
     interval::Report report{.vehicle = vehicle, .distance = d.distance.value_or(0.0), .sigma = sigma};
-    if (position.estimate.twist) report.speed = position.estimate.twist->rates[0];
+    report.speed = toldSpeed(d, position);
     if (!at) report.integrity = interval::Report::Integrity::Alarm;
     tell(report);
     if (places_.empty() || now_ - told_ >= durationFromSeconds(1.0)) tellPlaces();
@@ -130,6 +131,12 @@ class Recorded {
     tell(interval::Parked{vehicle, d.stop});
     d.home = true;
     ++result_.ways_finished;
+  }
+
+  /// As the file tells it; otherwise from the way since the last position, unless that was a jump.
+  std::optional<double> toldSpeed(const Driver& d, const Position& position) const {
+    if (position.estimate.twist) return position.estimate.twist->rates[0];
+    return d.speed <= max_speeds_[position.driver] ? std::optional(d.speed) : std::nullopt;
   }
 
   void note(Driver& d, const std::optional<double>& at, const Estimate& estimate) {
@@ -157,6 +164,7 @@ class Recorded {
   interval::LockEngine engine_;
   interval::LockAudit audit_;
   std::vector<Driver> drivers_;
+  std::vector<double> max_speeds_;  ///< m/s
   std::vector<Position> positions_;
   std::vector<traffic::TruePlace> places_;
   traffic::TrafficResult result_;
