@@ -108,13 +108,8 @@ SlipEvidence SinsDr::evidence(Stamp stamp, double difference_nis) const {
   velocity.nu = in.wheel_v_n - inertial;
   const double nis = filters::normalisedSquare(belief_, velocity, diagonal3(config_.slip.velocity_sigma));
   const double turn_rate = rate_.time() > 0.0 ? (rate_.rate() - belief_.mean.gyro_bias).z() : 0.0;
-  // A short track makes a turn of the wheels' noise: 0.1 rad/s on 0.2 m at 0.3 m/s over 0.1 s.
-  const double track = config_.odometer.track;
-  const double turn_sigma =
-      track > 0.0 ? std::sqrt(2.0 * ins::wayVariance(config_.odometer, since_update_.way)) / (track * time)
-                  : 0.0;
-  const bool turns_agree = track <= 0.0 || std::abs(since_update_.turn / time - turn_rate) <
-                                               config_.slip.release_yaw_rate + 2.0 * turn_sigma;
+  const bool turns_agree = config_.odometer.track <= 0.0 ||
+                           std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate;
   e.velocities_agree = nis < chiSquareQuantile(config_.slip.release_confidence, 3.0) && turns_agree;
   // Steady throughout: wheels that shake agree with the accelerometers now and then by chance.
   e.wheels_steady = turns_agree && !last_second_.empty() &&
