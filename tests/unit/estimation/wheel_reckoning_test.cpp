@@ -211,8 +211,9 @@ TEST(WheelReckoning, WheelsWithAWrongTrackTurnTheEncodersButNotTheGyros) {
   states.heading.track_error = {0.0, 0.03, 0.0};
   const double fused = yawError(states);
   EXPECT_GT(encoders, 0.15) << "4 % of 6 rad";
-  EXPECT_LT(gyros, 0.01);
-  EXPECT_LT(fused, 0.03);
+  // The run starts in motion: the heading it starts with is up to one wheel reading old, 0.1 s at 0.5 rad/s.
+  EXPECT_LT(gyros, 0.05);
+  EXPECT_LT(fused, 0.05);
 }
 
 TEST(WheelReckoning, StandingStillFindsTheGyroBias) {
