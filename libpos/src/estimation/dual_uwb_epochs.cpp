@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/error.hpp"
 #include "pos/estimation/dual_uwb_bank.hpp"
 
@@ -11,14 +12,6 @@ namespace {
 
 constexpr double kAmbiguous = 13.8;          // difference of chi^2 from which a pose is ruled out (1 in 1000)
 constexpr double kTurnedRound = 0.75 * kPi;  // rad, no vehicle turns as far between two epochs
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
 
 /// What a pose may have become in dt seconds of unknown motion.
 Matrix<3, 3> unknownMotion(const DualUwbConfig& config, double dt) {

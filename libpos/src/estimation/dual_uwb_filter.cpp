@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
 
@@ -12,14 +13,6 @@ namespace {
 constexpr double kOutlierShare = 0.05;
 constexpr double kOutlierDensity = 1.0 / 50.0;  // 1/m, a bad range may be anywhere over tens of metres
 constexpr double kCoursePeriod = 0.1;           // s between two constraints of a free vehicle
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
 
 using Told = filters::Correction<1>;
 
