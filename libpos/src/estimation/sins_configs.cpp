@@ -1,6 +1,6 @@
 #include "pos/estimation/sins_configs.hpp"
 
-#include "pos/estimation/config_checks.hpp"
+#include "pos/core/config_checks.hpp"
 #include "pos/estimation/configs.hpp"
 
 namespace pos::estimation {
@@ -75,8 +75,8 @@ SinsDrConfig validated(SinsDrConfig config) {
   requireValid(config.start, "start");
   requireValid(config.imu, "imu");
   requireValid(config.alignment, "alignment");
-  requireValid(config.standstill, "standstill");
-  requireValid(config.odometer, "odometer");
+  under("standstill", [&] { (void)validated(config.standstill); });
+  under("odometer", [&] { (void)validated(config.odometer); });
   requireValid(config.slip, "slip");
   if (config.start.mode != StartMode::Known && config.start.mode != StartMode::AtTruth) {
     refuse("inertial unit and wheels cannot find position and heading by themselves", "start.mode", "",

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "pos/core/square.hpp"
+
 namespace pos::estimation {
 namespace {
 
@@ -19,10 +21,6 @@ filters::Innovation<SinsDrState, M> empty() {
   innovation.nu.setZero();
   innovation.H.setZero();
   return innovation;
-}
-
-double square(double value) {
-  return value * value;
 }
 
 }  // namespace
