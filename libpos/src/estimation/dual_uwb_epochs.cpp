@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/error.hpp"
 #include "pos/estimation/dual_uwb_bank.hpp"
 
@@ -10,14 +11,6 @@ namespace pos::estimation {
 namespace {
 
 constexpr double kTurnedRound = 0.75 * kPi;  // rad, no vehicle turns as far between two epochs
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
 
 bool cheaper(const EpochPose& a, const EpochPose& b) {
   return a.cost < b.cost;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
 
@@ -10,14 +11,6 @@ namespace pos::estimation {
 namespace {
 
 constexpr double kCoursePeriod = 0.1;  // s between two constraints of a free vehicle
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
 
 using Told = filters::Correction<1>;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pos/core/square.hpp"
 #include "pos/estimation/dual_uwb_filter.hpp"
 
 namespace pos::estimation {
@@ -10,10 +11,6 @@ namespace {
 constexpr double kBackwards = 1.0;    // s of driving backwards that raise an alarm
 constexpr int kFewestRejections = 3;  // in a row, before all anchors can be said to disagree
 constexpr double kCrawl = 0.2;        // m/s, slower than this has no direction
-
-double square(double value) {
-  return value * value;
-}
 
 }  // namespace
 

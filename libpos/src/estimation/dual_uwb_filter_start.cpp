@@ -1,6 +1,7 @@
 // How the filter finds its first pose, and finds itself again.
 #include <cmath>
 
+#include "pos/core/square.hpp"
 #include "pos/estimation/dual_uwb_filter.hpp"
 
 namespace pos::estimation {
@@ -10,10 +11,6 @@ constexpr double kGatherTime = 1.0;  // s, ranges older than this do not help to
 constexpr int kAttempts = 10;        // cycles of ranges that disagree before they are taken all the same
 constexpr double kStillSpeed = 0.1;  // m/s, how still a vehicle stands that is known to stand
 constexpr double kStillRate = 0.05;  // rad/s
-
-double square(double value) {
-  return value * value;
-}
 
 }  // namespace
 

@@ -5,15 +5,12 @@
 
 #include "pos/core/angle.hpp"
 #include "pos/core/error.hpp"
+#include "pos/core/square.hpp"
 
 namespace pos::estimation {
 namespace {
 
 using State = DualUwbState;
-
-double square(double value) {
-  return value * value;
-}
 
 /// rad/s, and its derivative by the row of the rate (the gyro's bias counts against it).
 struct Rate {

@@ -3,17 +3,12 @@
 #include <cmath>
 
 #include "pos/core/pose3.hpp"
+#include "pos/core/square.hpp"
 #include "pos/ins/error_model.hpp"
 #include "pos/ins/odometer.hpp"
 
 namespace pos::estimation {
-namespace {
-
-double square(double value) {
-  return value * value;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 GyroWheel plus(const GyroWheel& x, const Tangent<GyroWheel>& d) {
   GyroWheel next = x;

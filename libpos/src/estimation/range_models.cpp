@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pos/core/square.hpp"
+
 namespace pos::estimation {
 namespace {
 
 using State = RangeState;
 using Term = StateTerm;
-
-double square(double value) {
-  return value * value;
-}
 
 /// d (R(yaw) v) / d yaw = R(90 deg) R(yaw) v, from R(yaw) v.
 Eigen::Vector2d derivativeOfTurned(const Eigen::Vector2d& Rv) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
 
@@ -19,18 +20,10 @@ constexpr std::array kTermNames{"velocity_x_m_per_s",  "velocity_y_m_per_s", "ya
                                 "range_offset_m",      "latency_s"};
 static_assert(kTermNames.size() == kStateTerms);
 
-double square(double value) {
-  return value * value;
-}
-
 std::vector<AnchorId> idsOf(const map::TunnelMap& map) {
   std::vector<AnchorId> ids;
   for (const map::Anchor& anchor : map.anchors) ids.push_back(anchor.id);
   return ids;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
 }
 
 IngestReport reportOf(const RangeCorrection& correction) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "pos/core/square.hpp"
+
 namespace pos::estimation {
 namespace {
 
@@ -14,10 +16,6 @@ constexpr std::size_t kRemembered = 60;  // older ones are forgotten: the odomet
 constexpr int kIterations = 20;
 constexpr int kSeedsPerSide = 5;
 constexpr double kRobustScale = 2.0;  // Cauchy weights: residuals beyond this many sigmas count less and less
-
-double square(double value) {
-  return value * value;
-}
 
 struct Fix {
   Eigen::Vector2d position;  ///< of the body now

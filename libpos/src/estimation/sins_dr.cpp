@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/angle.hpp"
 #include "pos/core/chi_square.hpp"
 
@@ -16,18 +17,6 @@ using ins::kPosition;
 using ins::kVelocity;
 
 constexpr double kMovingVelocitySigma = 0.2;  // m/s, of a start in motion, by the wheels
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
-
-Matrix<3, 3> diagonal3(double sigma) {
-  return square(sigma) * Matrix<3, 3>::Identity();
-}
 
 filters::NoiseAdaptation<3> startNoise(const SinsDrConfig& config) {
   return {{.form = config.noise_form,

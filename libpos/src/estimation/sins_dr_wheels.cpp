@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/estimation/sins_dr.hpp"
 
@@ -14,18 +15,6 @@ using ins::kVelocity;
 
 constexpr double kSteadyDifference = 0.15;    // m/s over a second between wheels and accelerometers
 constexpr double kForcedVelocitySigma = 0.1;  // m/s
-
-double square(double value) {
-  return value * value;
-}
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
-
-Matrix<3, 3> diagonal3(double sigma) {
-  return square(sigma) * Matrix<3, 3>::Identity();
-}
 
 }  // namespace
 

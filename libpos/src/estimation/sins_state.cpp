@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "pos/core/square.hpp"
 #include "pos/filters/wide.hpp"
 #include "pos/ins/block_transition.hpp"
 
@@ -22,10 +23,6 @@ filters::Innovation<SinsDrState, M> empty() {
   innovation.nu.setZero();
   innovation.H.setZero();
   return innovation;
-}
-
-double square(double value) {
-  return value * value;
 }
 
 /// What a while adds to the covariance: a diagonal, and a block for the wheels' position.

@@ -4,13 +4,10 @@
 
 #include "pos/core/angle.hpp"
 #include "pos/core/pose3.hpp"
+#include "pos/core/square.hpp"
 
 namespace pos::estimation {
 namespace {
-
-double square(double value) {
-  return value * value;
-}
 
 /// d sinc(turn / 2) / d turn.
 double sincSlope(double turn) {

@@ -3,16 +3,12 @@
 
 #include "pos/estimation/wheel_reckoning.hpp"
 
+#include "pos/core/square.hpp"
+
 // What dead reckoning answers, from either of its beliefs.
 
 namespace pos::estimation {
-namespace {
-
-double square(double value) {
-  return value * value;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Estimate WheelReckoning::headingEstimate() const {
   const WheelHeading& x = heading_.mean;
