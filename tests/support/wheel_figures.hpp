@@ -29,7 +29,7 @@ constexpr double kScoreInterval = 0.1;  // s between looks at the errors
 struct WheelRun {
   double max_xy = 0.0;         ///< m
   double end_xy = 0.0;         ///< m
-  double max_across = 0.0;     ///< m, across the true heading at the end
+  double end_across = 0.0;     ///< m, across the true heading at the end
   double way = 0.0;            ///< m, of the truth
   double end_yaw = 0.0;        ///< rad, estimate minus truth
   double longest_out = 0.0;    ///< s, longest stretch of comparisons that were not used

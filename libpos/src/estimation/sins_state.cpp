@@ -41,7 +41,8 @@ SinsDrNoise noiseOver(const SinsDrConfig& config, const SinsDrState& x, const Si
   // Each wheel's way has k_d^2 |way|; their mean half of it, along the way. The rest is white in velocity.
   const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
   const double way_density = 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(input.wheel_speed);
-  q.wheels = dt * way_density * along * along.transpose();
+  q.wheels = along * along.transpose();  // scaled afterwards: symmetric to the last bit
+  q.wheels *= dt * way_density;
   q.wheels.diagonal().array() += square(config.odometer_velocity_sigma) * input.wheel_interval * dt;
   return q;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "parts.hpp"
 #include "pos/core/angle.hpp"
 #include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
-#include "pos/core/square.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -14,10 +14,6 @@ namespace {
 constexpr double kPropagationInterval = 0.05;  // s between steps of the covariance
 constexpr double kRestInterval = 0.1;          // s of gyro readings in one look at their bias
 constexpr double kRestConfidence = 0.999;      // of the gate on that look: a turntable is quiet too
-
-IngestReport refusal(Verdict verdict, std::string_view reason) {
-  return {.verdict = verdict, .reason = reason};
-}
 
 }  // namespace
 

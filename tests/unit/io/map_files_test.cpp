@@ -252,7 +252,7 @@ TEST(MapFiles, WhatCouldNotBeReadBackIsNotWritten) {
   roadway.id = "No";
   roadway.centreline = {{.p_map = {0, 0, 0}}, {.p_map = {10, 0, 0}}};
   file.map.roadways = {roadway};
-  EXPECT_THAT(checkedMapText(file), HasSubstr("id: \"No\""))
+  EXPECT_THAT(checkedMapText(file), ::testing::HasSubstr("id: \"No\""))
       << "a word that other YAML readers take for false";
   file.map.roadways[0].width = 0.3;
   try {
