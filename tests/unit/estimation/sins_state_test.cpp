@@ -130,7 +130,8 @@ Belief<SinsDrState> believed(const SinsDrState& x, unsigned seed) {
   std::srand(seed);
   const Matrix<21, 21> A = Matrix<21, 21>::Random();
   const Matrix<21, 21> C = A * A.transpose() / 7.0;
-  return {x, sigma.asDiagonal() * C * sigma.asDiagonal()};
+  const Matrix<21, 21> P = sigma.asDiagonal() * C * sigma.asDiagonal();
+  return {x, 0.5 * (P + P.transpose())};
 }
 
 TEST(SinsDrModels, CarryingByBlocksEqualsTheFullMatrices) {
