@@ -139,16 +139,16 @@ Topic dualUwb() {
 }
 
 Topic sins() {
-  return {.title = "sins_dr",
-          .yardstick = "dense Eigen, 19 states",
-          .comparisons = {{"strapdown and covariance, per sample at 200 Hz, flat Earth", "sample_ours/flat",
-                           "sample_dense/flat", "ns_per_sample", "ns", 0.0},
-                          {"the same on the ellipsoid", "sample_ours/ellipsoid", "sample_dense/ellipsoid",
-                           "ns_per_sample", "ns", 0.0},
-                          {"one comparison of the two positions", "update_ours", "update_dense",
-                           "ns_per_update", "ns", 0.0}},
-          .figures = {{"an hour at 200 Hz with wheels, from memory", "drive_ours", "epochs_per_s",
-                       "samples/s"}}};
+  return {
+      .title = "sins_dr",
+      .yardstick = "dense Eigen, 19 states",
+      .comparisons = {{"strapdown and covariance, per sample at 200 Hz, flat Earth", "sample_ours/flat",
+                       "sample_dense/flat", "ns_per_sample", "ns", 0.0},
+                      {"the same on the ellipsoid", "sample_ours/ellipsoid", "sample_dense/ellipsoid",
+                       "ns_per_sample", "ns", 0.0},
+                      {"one comparison of the two positions", "update_ours", "update_dense", "ns_per_update",
+                       "ns", 0.0}},
+      .figures = {{"an hour at 200 Hz with wheels, from memory", "drive_ours", "epochs_per_s", "samples/s"}}};
 }
 
 }  // namespace

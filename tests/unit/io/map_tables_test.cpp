@@ -109,8 +109,9 @@ TEST(MapTables, WhatMapFilesRefuseIsToldWithItsRow) {
   };
   EXPECT_THAT(refused(std::string(kStations) + "B,388050,4512040,79950,,\n", kAnchors),
               AllOf(HasSubstr("two points at the same place"), HasSubstr("stations.csv:7:1")));
-  EXPECT_THAT(refused(kStations, std::string(kAnchors) + "8,388020,4512002,801.5,20\n7,388030,4512002,801.5,20\n"),
-              AllOf(HasSubstr("two anchors have the same id"), HasSubstr("anchors.csv:4:1")));
+  EXPECT_THAT(
+      refused(kStations, std::string(kAnchors) + "8,388020,4512002,801.5,20\n7,388030,4512002,801.5,20\n"),
+      AllOf(HasSubstr("two anchors have the same id"), HasSubstr("anchors.csv:4:1")));
   EXPECT_THAT(refused(kStations, std::string(kAnchors) + "8,388020,4512002,801.5,2e6\n"),
               AllOf(HasSubstr("survey_sigma_m"), HasSubstr("anchors.csv:3:1")));
 }
