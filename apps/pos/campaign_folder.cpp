@@ -160,9 +160,10 @@ Manifest Manifest::read(const fs::path& folder) {
 }
 
 std::string difference(const Manifest& there, const Manifest& here) {
-  if (there.version != here.version || there.git != here.git)
+  if (there.version != here.version || there.git != here.git) {
     return "the build of pos (" + there.version + " " + there.git + ", here " + here.version + " " +
            here.git + ")";
+  }
   if (there.head.seed != here.head.seed)
     return "the seed (" + std::to_string(there.head.seed) + ", here " + std::to_string(here.head.seed) + ")";
   if (there.settings != here.settings)

@@ -75,9 +75,10 @@ std::vector<report::DistanceBand> LockDiagram::bands() const {
 void LockDiagram::end(std::vector<Held>::iterator held, double t) {
   const WaySection& s = way_.sections[held->index];
   const bool seen = t > diagram_.t0 && held->since < diagram_.t1;
-  if (seen)
+  if (seen) {
     diagram_.bars.push_back(
         {held->since, t, s.from, s.to, held->movement == s.movement ? kSameWay : kOtherWay});
+  }
   held_.erase(held);
 }
 

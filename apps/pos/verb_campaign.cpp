@@ -90,9 +90,10 @@ void requireSense(const Options& options) {
     refuseUsage("no configuration", "CONFIG", "", "a configuration file, or merge with the folders of parts");
   if (options.runs < 1)
     refuseUsage("a campaign needs runs", "--runs", std::to_string(options.runs), "1 or more");
-  if (options.jobs < 0 || options.jobs > 4096)
+  if (options.jobs < 0 || options.jobs > 4096) {
     refuseUsage("this many threads cannot be", "--jobs", std::to_string(options.jobs),
                 "1 to 4096; 0: one a core");
+  }
   if (options.shard.empty()) return;
   if (options.outputs.folder.empty())
     refuseUsage("a part of a campaign needs a folder for its runs", "--out", "", "--out FOLDER");

@@ -50,10 +50,11 @@ ExitCode runInfo(const std::vector<std::string>& logs, bool as_json) {
       print(io::toText(info) + (logs.size() > 1 ? "\n" : ""));
     }
   }
-  if (as_json)
+  if (as_json) {
     print(
         (logs.size() == 1 ? all.front() : all).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
         "\n");
+  }
   return damaged ? ExitCode::Data : ExitCode::Ok;
 }
 

@@ -67,9 +67,10 @@ Json tallyJson(const interval::AuditTally& t, const std::vector<interval::AuditF
             {"overrides", t.overrides},
             {"rejected", t.rejected},
             {"findings", Json::array()}};
-  for (const interval::AuditFinding& f : findings)
+  for (const interval::AuditFinding& f : findings) {
     json["findings"].push_back(
         {{"stamp_s", secondsSinceOrigin(f.stamp)}, {"vehicle", f.vehicle}, {"what", f.what}});
+  }
   return json;
 }
 
@@ -143,9 +144,10 @@ ExitCode runLocks(const Options& options, const Voice& voice) {
   if (config.traffic) config.traffic->seed = config.seed;
   const LockYard yard(config);
   std::optional<io::RunFolder> folder;
-  if (!options.folder.empty())
+  if (!options.folder.empty()) {
     folder = io::RunFolder::create(options.folder,
                                    options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
+  }
   std::optional<io::LockLogWriter> log;
   if (folder && !options.no_log) log.emplace(folder->path() / kLogFile, yard.ways());
   LockDiagram diagram(yard, config);

@@ -93,9 +93,10 @@ ExitCode runCheck(const CheckOptions& options) {
     const map::TunnelMap tunnel_map = withOptions(mapOf(file), options);
     const std::vector<map::Finding> findings = map::findings(networkOf(tunnel_map), {});
     Json json{{"map", file}, {"findings", Json::array()}};
-    if (!options.json)
+    if (!options.json) {
       print(file + ": " + (findings.empty() ? "in order" : std::to_string(findings.size()) + " findings") +
             "\n");
+    }
     for (const map::Finding& finding : findings) {
       errors = errors || finding.severity == map::Severity::Error;
       json["findings"].push_back(toJson(finding, tunnel_map.mine_grid));

@@ -37,9 +37,10 @@ std::optional<report::PlanBackground> backgroundOf(const map::TunnelMap& map, co
             std::to_string(fit.residuals.size()) + " control points " +
             (fit.residuals.size() > 3 ? io::text::fixed(fit.rms, 2) + " m rms"
                                       : std::string("unknown: a fourth point would tell")));
-  for (std::size_t i = 0; i < fit.residuals.size(); ++i)
+  for (std::size_t i = 0; i < fit.residuals.size(); ++i) {
     voice.detail("  control point " + std::to_string(i + 1) + ": " + io::text::fixed(fit.residuals[i], 3) +
                  " m");
+  }
   io::BackgroundPicture picture = io::loadPicture(map_file.parent_path() / map.background->file);
   return report::PlanBackground{std::move(picture.bytes), picture.columns, picture.rows, fit.T_map_pixel};
 }

@@ -220,11 +220,12 @@ IngestReport SinsDr::take(Stamp stamp, const PassageFix& fix) {
     const auto heading = filters::correct(tried, headingFix(tried.mean, difference),
                                           Matrix<1, 1>(square(fix.yaw_sigma.value_or(0.1))),
                                           {chiSquareQuantile(config_.fix_confidence, 1.0)});
-    if (heading.verdict != Verdict::Applied)
+    if (heading.verdict != Verdict::Applied) {
       return {.verdict = Verdict::Gated,
               .dof = 1,
               .nis = heading.nis,
               .reason = "the fix's heading is too far off"};
+    }
   }
   belief_ = tried;
   return report;

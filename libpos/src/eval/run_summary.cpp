@@ -130,9 +130,10 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   summary.diagnostics = record.diagnostics;
   summary.events = record.events;
   summary.path = plainPath(record.estimates, start, options.plot_points);
-  if (record.intervals && options.interval_scene)
+  if (record.intervals && options.interval_scene) {
     summary.intervals =
         intervalFigures(*record.intervals, *options.interval_scene, truth, options.association);
+  }
   if (truth == nullptr || truth->poses.empty()) return summary;
   const Matches matches = associate(record.estimates, *truth, options.association);
   const Alignment shift = alignment(matches.pairs, options.alignment, *truth);

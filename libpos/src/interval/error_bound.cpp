@@ -31,9 +31,10 @@ double longest(const std::vector<double>& spacings, std::size_t merge) {
 DriftModel validated(DriftModel drift) {
   for (const double value : {drift.reset_along, drift.reset_across, drift.scale, drift.random_along,
                              drift.heading, drift.gyro_bias, drift.gyro_noise}) {
-    if (!std::isfinite(value) || value < 0.0)
+    if (!std::isfinite(value) || value < 0.0) {
       throw ConfigError(Complaint{
           .what = "a drift is negative or no number", .got = std::to_string(value), .expected = ">= 0"});
+    }
   }
   return drift;
 }

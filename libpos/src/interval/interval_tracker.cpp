@@ -28,9 +28,10 @@ bool inLane(map::Lane lane, Direction facing) {
 IntervalRules validated(IntervalRules rules) {
   const bool good = rules.listed >= 0.0 && rules.listed < 1.0 && rules.certain > kHalf &&
                     rules.certain < 1.0 && rules.speed_sigma >= 0.0 && rules.slowest > 0.0;
-  if (!good)
+  if (!good) {
     throw ConfigError(Complaint{.what = "a rule of the interval positioning is out of range",
                                 .expected = "listed in [0, 1), certain in (0.5, 1), speeds not negative"});
+  }
   return rules;
 }
 
@@ -114,9 +115,10 @@ std::vector<double> IntervalTracker::probabilities() const {
   for (const RoadHypothesis& h : road_.hypotheses()) {
     const double sigma = std::max(h.along_sigma, 1e-6);
     for (std::size_t i = 0; i < intervals_.size(); ++i) {
-      for (const Stretch& s : stretches(h, i))
+      for (const Stretch& s : stretches(h, i)) {
         sum[i] += h.probability *
                   (normal((s.to - h.foot.distance) / sigma) - normal((s.from - h.foot.distance) / sigma));
+      }
     }
   }
   return sum;

@@ -138,9 +138,10 @@ void LockAudit::locked(const LockRecord& record) {
     if (id == record.vehicle || trespass) continue;
     const auto [first, last] = other.held.equal_range(record.section);
     for (auto h = first; h != last; ++h) {
-      if (h->second != record.movement)
+      if (h->second != record.movement) {
         find(record.vehicle,
              "opposes vehicle " + std::to_string(id) + " on " + site_->sections[record.section].id);
+      }
     }
   }
   seen_[record.vehicle].held.emplace(record.section, record.movement);

@@ -259,9 +259,10 @@ std::vector<std::size_t> LockEngine::occupiedIntervals() const {
 
 VehicleView LockEngine::view(VehicleId vehicle) const {
   const Traveller* v = desk_->fleet().find(vehicle);
-  if (v == nullptr)
+  if (v == nullptr) {
     throw DataError(
         Complaint{.what = "no vehicle of this number is enrolled", .got = std::to_string(vehicle)});
+  }
   VehicleView view{
       .on_road = v->on_road, .waiting = v->waiting, .authority = v->authority, .believed = v->believed()};
   if (v->hasWay()) view.stop = v->stop;

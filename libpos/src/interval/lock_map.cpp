@@ -41,10 +41,11 @@ bool sharesLane(map::Lane a, map::Lane b) {
 LockMapRules validated(LockMapRules rules) {
   for (const double value :
        {rules.bay_margin, rules.junction_reach, rules.stop_line, rules.queue_length, rules.queue_margin}) {
-    if (!std::isfinite(value) || value < 0.0)
+    if (!std::isfinite(value) || value < 0.0) {
       throw ConfigError(Complaint{.what = "a length of the lock map is negative or no number",
                                   .got = std::to_string(value),
                                   .expected = ">= 0 m"});
+    }
   }
   return rules;
 }

@@ -37,9 +37,10 @@ std::vector<LockMap::DrivenEdge> LockMap::driven(const map::RouteLine& route) co
 }
 
 std::size_t LockMap::depot(std::size_t node) const {
-  if (graph_.nodes()[node].kind == map::GraphNode::Kind::Junction)
+  if (graph_.nodes()[node].kind == map::GraphNode::Kind::Junction) {
     throw DataError(Complaint{.what = "a way for locks begins and ends at an open end or a portal",
                               .got = "junction " + graph_.nodes()[node].id});
+  }
   return node_depot_[node];
 }
 
@@ -95,9 +96,10 @@ Way LockMap::way(const map::RouteLine& route) const {
   way.stops.push_back({depot(startNode(edges.front())), 0.0, 0.0, 0.0});
   double at = 0.0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (i > 0 && endNode(edges[i - 1]) != startNode(edges[i]))
+    if (i > 0 && endNode(edges[i - 1]) != startNode(edges[i])) {
       throw DataError(
           Complaint{.what = "the route has a gap", .got = "after edge " + std::to_string(edges[i - 1].edge)});
+    }
     if (i > 0) at = cross(way, edges[i - 1], edges[i], at);
     at = drive(way, edges[i], at);
   }

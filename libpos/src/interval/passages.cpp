@@ -17,9 +17,10 @@ constexpr double kSamePlace = 1.0;  // m, chambers nearer to each other (on the 
 PassageRules validated(PassageRules rules) {
   const bool good = rules.gate_sigmas > 0.0 && rules.stamp_sigma >= 0.0 && rules.missed_margin >= 0.0 &&
                     rules.repeat_within >= 0.0 && rules.odometer_scale >= 0.0 && rules.vertical_sigma > 0.0;
-  if (!good)
+  if (!good) {
     throw ConfigError(
         Complaint{.what = "a rule of the chamber passages is out of range", .expected = ">= 0"});
+  }
   return rules;
 }
 

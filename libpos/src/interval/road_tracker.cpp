@@ -43,10 +43,11 @@ MatchRules validated(MatchRules rules) {
                     rules.sigmas > 0.0 && rules.look_ahead >= 0.0 && rules.lost_after >= 0.0 &&
                     rules.reacquire_slack >= 0.0 && rules.passage_wrong > 0.0 && rules.passage_wrong < 1.0 &&
                     rules.hypotheses_at_most >= 2;
-  if (!good)
+  if (!good) {
     throw ConfigError(
         Complaint{.what = "a rule of the map matching is out of range",
                   .expected = "sigmas above zero, probabilities between 0 and 1, commit above 0.5"});
+  }
   return rules;
 }
 

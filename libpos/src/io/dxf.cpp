@@ -62,9 +62,10 @@ std::map<std::string, Block> blocksOf(const std::vector<Record>& records, std::s
     block.base = {number(10, 0.0), number(20, 0.0), number(30, 0.0)};
     SkipList inside;
     block.content = contentOf(records, ++at, "ENDBLK", inside);
-    for (const DxfSkipped& entry : inside.list())
+    for (const DxfSkipped& entry : inside.list()) {
       skipped.add("(block " + plainText(head.text(2)) + ")", entry.type, entry.reason, entry.first_line,
                   entry.count);
+    }
     blocks[std::string(head.text(2))] = std::move(block);
     if (at >= records.size() || records[at].type == "ENDSEC") break;
   }

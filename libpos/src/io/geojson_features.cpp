@@ -91,9 +91,10 @@ void spread(YamlNode& object, YamlNode& centreline, const char* name, const std:
     const FilePlace place = object.keys[i].place;
     object.keys.erase(object.keys.begin() + static_cast<std::ptrdiff_t>(i));
     object.items.erase(object.items.begin() + static_cast<std::ptrdiff_t>(i));
-    if (values.kind != Kind::List || values.items.size() != centreline.items.size())
+    if (values.kind != Kind::List || values.items.size() != centreline.items.size()) {
       refuse("this property needs a value for each point of the line", values, feature + "." + name,
              "a list of " + std::to_string(centreline.items.size()) + " numbers or nulls");
+    }
     for (std::size_t k = 0; k < values.items.size(); ++k) {
       if (values.items[k].kind == Kind::Null) continue;
       centreline.items[k].add(name, values.items[k]);
@@ -107,9 +108,10 @@ void addGeometry(Feature& feature) {
   const bool roadway = feature.kind->list == "roadways";
   const bool anchor = feature.kind->list == "anchors";
   if (!roadway && !anchor) return;
-  if (feature.geometry->kind == Kind::Null)
+  if (feature.geometry->kind == Kind::Null) {
     refuse("a " + std::string(feature.kind->word) + " without geometry", *feature.geometry,
            feature.name + ".geometry", roadway ? "a LineString" : "a Point");
+  }
   const std::string key = feature.name + ".geometry.coordinates";
   if (anchor) {
     const YamlNode point = pointTable(coordinatesOf(feature, "Point"), key);

@@ -28,9 +28,10 @@ class Reader {
     const YamlNode& list = member(root, "features", "", "the features");
     if (list.kind != Kind::List) refuse("this is no list", list, "features", "[...]");
     for (const YamlNode& node : list.items) features_.push_back(featureOf(node, features_.size()));
-    if (root.find("crs") != nullptr && root.find("crs")->kind != Kind::Null)
+    if (root.find("crs") != nullptr && root.find("crs")->kind != Kind::Null) {
       result_.remarks.emplace_back(
           "the file names a coordinate system; its coordinates are taken as metres in the map frame");
+    }
   }
 
   GeoJsonImport run() {
@@ -122,9 +123,10 @@ class Reader {
       const Eigen::Vector3d p = pointOf(feature);
       const YamlNode* roadway = feature.object.find("roadway");
       const map::Roadway* on = roadway == nullptr ? nullptr : result_.file.map.findRoadway(roadway->text);
-      if (on == nullptr)
+      if (on == nullptr) {
         refuse("a point without chainage_m needs the id of its roadway", feature.object,
                feature.name + ".roadway", "a roadway's id");
+      }
       const double chainage = map::Centreline(*on).foot(p).chainage;
       const std::string digits = text::fixed(chainage, 3);
       feature.object.add("chainage_m", plainNode(digits));

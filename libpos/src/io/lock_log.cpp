@@ -191,9 +191,10 @@ std::string LockLogWriter::wayNumber(const Way& way) const {
 }
 
 std::string LockLogWriter::detail(const LockEvent& event) const {
-  if (const auto* e = std::get_if<Enrol>(&event.what))
+  if (const auto* e = std::get_if<Enrol>(&event.what)) {
     return "front_m=" + shortest(e->front) + ";rear_m=" + shortest(e->rear) +
            ";max_speed_m_per_s=" + shortest(e->max_speed) + ";priority=" + std::to_string(e->priority);
+  }
   if (const auto* e = std::get_if<Begin>(&event.what)) return "way=" + wayNumber(e->way);
   if (const auto* e = std::get_if<Report>(&event.what)) {
     std::string text = "distance_m=" + shortest(e->distance) + ";sigma_m=" + shortest(e->sigma);

@@ -32,9 +32,10 @@ constexpr std::array kRules{RuleKey{"footprint_sigmas", &LockRules::footprint_si
 
 Json wayJson(const Way& way) {
   Json sections = Json::array();
-  for (const WaySection& s : way.sections)
+  for (const WaySection& s : way.sections) {
     sections.push_back(
         {{"section", s.section}, {"movement", s.movement}, {"from_m", s.from}, {"to_m", s.to}});
+  }
   Json stops = Json::array();
   for (const WayStop& s : way.stops)
     stops.push_back({{"stop", s.stop}, {"at_m", s.at}, {"from_m", s.from}, {"to_m", s.to}});
@@ -62,9 +63,10 @@ StopPlace::Kind stopKind(const std::string& word) {
 }
 
 LockScene sceneFrom(const Json& json) {
-  if (json.at("format") != kFormat)
+  if (json.at("format") != kFormat) {
     throw DataError(
         Complaint{.what = "another format", .got = json.at("format").dump(), .expected = kFormat});
+  }
   LockScene scene;
   for (const RuleKey& rule : kRules) scene.rules.*rule.field = json.at("rules").at(rule.key).get<double>();
   for (const Json& s : json.at("sections")) {

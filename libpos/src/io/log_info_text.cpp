@@ -104,9 +104,10 @@ std::string toText(const LogInfo& info) {
   }
   text += sensorTable(info) + anchorTable(info) + counts("skipped", info.tally.skipped) +
           counts("refused", info.tally.refused);
-  if (info.tally.references > 0)
+  if (info.tally.references > 0) {
     text += formatted("%-9s %9llu  absolute odometry used as first reference\n", "reference",
                       static_cast<unsigned long long>(info.tally.references));
+  }
   if (info.end.damaged) {
     text += formatted("DAMAGED after %llu whole objects, at byte %llu of the uncompressed stream: ",
                       static_cast<unsigned long long>(info.end.objects),

@@ -121,9 +121,10 @@ std::optional<NamedFigure> rmseOverTimeFigure(const CampaignSummary& campaign) {
   drawAxes(svg, plot, {"time since the start (s)", "RMSE over the runs (m)"});
   svg.beginClip(box);
   for (std::size_t i = 0; i < campaign.estimators.size(); ++i) {
-    if (campaign.estimators[i].mean_rmse_xy)
+    if (campaign.estimators[i].mean_rmse_xy) {
       svg.polyline(curve(plot, campaign.estimators[i].moments, &MomentOverRuns::rmse_xy),
                    strokeClass(i) + " thin");
+    }
   }
   svg.endClip();
   return NamedFigure{

@@ -99,9 +99,10 @@ cv::Mat onWhite(cv::Mat image) {
   for (int row = 0; row < image.rows; ++row) {
     for (int column = 0; column < image.cols; ++column) {
       const auto& from = image.at<cv::Vec4b>(row, column);
-      for (int k = 0; k < 3; ++k)
+      for (int k = 0; k < 3; ++k) {
         opaque.at<cv::Vec3b>(row, column)[k] =
             static_cast<std::uint8_t>((from[k] * from[3] + 255 * (255 - from[3]) + 127) / 255);
+      }
     }
   }
   return opaque;

@@ -37,9 +37,10 @@ void addRoadEntries(std::vector<Entry>& entries, const map::TunnelMap& map, cons
                          band(d, p, 5.0, {.fill = "#eef1f4", .stroke = "#3b4652", .stroke_width = 1.3});
                        }});
     entries.push_back({"chainage (m)", [](Drawing& d, Pixel p) {
-                         for (const double x : {-10.0, 0.0, 10.0})
+                         for (const double x : {-10.0, 0.0, 10.0}) {
                            d.add(DrawnLine{{{p.x + x, p.y - 4.0}, {p.x + x, p.y + 4.0}},
                                            {.stroke = "#4a5663", .stroke_width = 1.2}});
+                         }
                        }});
   }
   if (any(map.roadways, [](const map::Roadway& r) { return r.lanes == 2; })) {
@@ -56,12 +57,13 @@ void addRoadEntries(std::vector<Entry>& entries, const map::TunnelMap& map, cons
   }
   if (!options.intervals.empty()) {
     entries.push_back({"lock intervals", [](Drawing& d, Pixel p) {
-                         for (int k = 0; k < 3; ++k)
+                         for (int k = 0; k < 3; ++k) {
                            d.add(DrawnPolygon{{{p.x - 15.0 + 10.0 * k, p.y - 5.0},
                                                {p.x - 6.0 + 10.0 * k, p.y - 5.0},
                                                {p.x - 6.0 + 10.0 * k, p.y + 5.0},
                                                {p.x - 15.0 + 10.0 * k, p.y + 5.0}},
                                               {.fill = intervalColour(static_cast<std::size_t>(k))}});
+                         }
                        }});
   }
 }

@@ -96,9 +96,10 @@ std::string subtitle(const Sheet& sheet) {
   if (const std::size_t drawn = intervalsDrawn(sheet); drawn > 0)
     text += ", " + counted(drawn, "lock interval", "lock intervals");
   text += "; coordinates in m in the map frame";
-  if (map.mine_grid && !map.mine_grid->name.empty())
+  if (map.mine_grid && !map.mine_grid->name.empty()) {
     text += ", its origin at E " + fixed(map.mine_grid->easting, 3) + " N " +
             fixed(map.mine_grid->northing, 3) + " (" + map.mine_grid->name + ")";
+  }
   return text;
 }
 

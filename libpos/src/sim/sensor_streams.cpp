@@ -93,9 +93,10 @@ class StreamMaker {
   std::unique_ptr<SensorStream> operator()(SupportLegSensor model) const {
     named(model.config, wideStreamOf(entry_.name));
     if (!entry_.mount.empty()) model.config.scanner.T_body_sensor.translation = place(entry_.mount);
-    if (!site_.shearer)
+    if (!site_.shearer) {
       refuse("support legs stand along a shearer's conveyor only", "type", "support_legs",
              "motion.type: shearer");
+    }
     return std::make_unique<LegStream>(model.config, legPlacer(model), site_.motion, site_.run);
   }
 

@@ -19,10 +19,11 @@ void requireWayOut(const std::vector<Way>& ways, const interval::LockSite& site)
     const bool leads_on = std::any_of(ways.begin(), ways.end(), [&](const Way& next) {
       return next.stops.front().stop == way.stops.back().stop;
     });
-    if (!leads_on)
+    if (!leads_on) {
       throw DataError(Complaint{.what = "a vehicle could not leave again",
                                 .got = "no way begins at " + site.stops[way.stops.back().stop].id,
                                 .suggestion = "add a way back"});
+    }
   }
 }
 

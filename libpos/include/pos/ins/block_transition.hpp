@@ -84,16 +84,18 @@ class BlockTransition {
   /// P.rows(row) += A M.rows(column), for the columns of active rows up to this one.
   void addLeft(const Block& block, const Covariance& M, Covariance& P) const {
     for (int j = 0; j <= block.row; j += 3) {
-      if (isActive(j / 3))
+      if (isActive(j / 3)) {
         P.template block<3, 3>(block.row, j).noalias() +=
             block.value.lazyProduct(M.template block<3, 3>(block.column, j));
+      }
     }
   }
   void addLeft(const Column& column, const Covariance& M, Covariance& P) const {
     for (int j = 0; j <= column.row; j += 3) {
-      if (isActive(j / 3))
+      if (isActive(j / 3)) {
         P.template block<3, 3>(column.row, j).noalias() +=
             column.value * M.template block<1, 3>(column.column, j);
+      }
     }
   }
 
