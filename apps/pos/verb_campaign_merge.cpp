@@ -18,7 +18,7 @@ struct MergeOptions {
 
 /// The campaign that all folders are parts of.
 Manifest commonManifest(const std::vector<std::string>& folders) {
-  const Manifest first = Manifest::read(folders.front());
+  Manifest first = Manifest::read(folders.front());
   for (const std::string& folder : folders) {
     const Manifest other = Manifest::read(folder);
     const bool same = other.fingerprint() == first.fingerprint();

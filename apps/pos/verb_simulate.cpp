@@ -155,7 +155,7 @@ Made written(const Site& site, sim::Simulation& simulation, const Options& optio
   const auto folder = io::RunFolder::create(
       options.folder, options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
   io::RawlogWriter log(folder.log().string());
-  const Made made = passed(simulation, voice, [&](const Measurement& m) { log.write(m); });
+  Made made = passed(simulation, voice, [&](const Measurement& m) { log.write(m); });
   log.close();
   writeTruth(simulation, options.truth_rate, folder.truth());
   writeMap(site, folder);

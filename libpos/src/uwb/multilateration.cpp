@@ -91,8 +91,8 @@ void addBothSides(TagFixes& fixes, const TagModel& model, const Weights& weights
     addOnLine(fixes, model, weights, shape, start);
     return;
   }
-  for (const Eigen::Vector2d& side : detail::bothSides(shape, start).all())
-    add(fixes, model, weights, side, test);
+  const auto sides = detail::bothSides(shape, start);
+  for (const Eigen::Vector2d& side : sides.all()) add(fixes, model, weights, side, test);
 }
 
 }  // namespace
