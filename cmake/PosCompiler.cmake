@@ -24,7 +24,9 @@ target_compile_options(pos_warnings INTERFACE -Wall -Wextra -Wconversion -Wshado
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized -Wno-array-bounds>)
 
 # One instrumented tree serves the sanitizer tests, the coverage and the fuzz programs: every file is built once for
-# all three. Line tables (-g1) are all that a report of a fault needs.
+# all three. Line tables (-g1) are all that a report of a fault needs. Left out are the checks of every single member
+# access (null, alignment, object-size, pointer-overflow, vptr): they cost a third of the compile time, and the address
+# sanitizer finds what a wrong address does.
 if(POS_SANITIZE)
   set(sanitizers address,undefined)
   if(POS_FUZZ)
@@ -33,7 +35,8 @@ if(POS_SANITIZE)
     endif()
     set(fuzzer ,fuzzer-no-link)
   endif()
-  add_compile_options(-fsanitize=${sanitizers}${fuzzer} -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O1 -g1)
+  add_compile_options(-fsanitize=${sanitizers}${fuzzer} -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
+                      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=${sanitizers})
 endif()
 if(POS_COVERAGE)

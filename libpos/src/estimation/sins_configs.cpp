@@ -41,7 +41,7 @@ SlipConfig validated(SlipConfig config) {
   }
   requirePositive(config.release_yaw_rate, "release_yaw_rate_deg_per_s");
   requirePositive(config.velocity_sigma, "velocity_sigma_m_per_s");
-  requirePositive(config.max_time, "max_time_s");
+  requirePositive(config.degraded_after, "degraded_after_s");
   requirePositive(config.max_sigma, "max_sigma_m");
   requirePositive(config.lateral_sigma, "lateral_sigma_m_per_s");
   return config;

@@ -16,6 +16,7 @@ using ins::kPhi;
 using ins::kPosition;
 using ins::kVelocity;
 
+constexpr double kJumpConfidence = 0.999;     // of the test of the change of the wheels' speed
 constexpr double kMovingVelocitySigma = 0.2;  // m/s, of a start in motion, by the wheels
 
 filters::NoiseAdaptation<3> startNoise(const SinsDrConfig& config) {
@@ -39,6 +40,8 @@ SinsDr::SinsDr(const SinsDrConfig& config, const std::shared_ptr<const map::Tunn
                                               : ins::Earth::ellipsoid(),
              *map, "earth"),
       difference_gate_{chiSquareQuantile(config.slip.confidence, 3.0)},
+      jump_gate_{chiSquareQuantile(kJumpConfidence, 2.0)},
+      release_gate_{chiSquareQuantile(config.slip.release_confidence, 3.0)},
       standstill_(config.standstill),
       rest_(config.alignment, config.standstill),
       wheels_(config.odometer),
@@ -56,7 +59,7 @@ void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
   rest_.forget();
   blind_ = {};
   slip_.forget();
-  last_second_.clear();
+  slide_.forget();
   noise_ = startNoise(config_);
 }
 
@@ -148,8 +151,11 @@ void SinsDr::start(Stamp stamp) {
 
 IngestReport SinsDr::strapdown(Stamp stamp, const ins::ImuIncrement& raw) {
   const ins::ImuIncrement now = corrected(raw, belief_.mean);
+  const Eigen::Vector3d v_before = belief_.mean.nav.v_n;
   belief_.mean.nav =
       ins::stepped(belief_.mean.earth, belief_.mean.nav, ins::compensated(now, last_increment_));
+  mechanised_v_ += belief_.mean.nav.v_n - v_before;
+  mechanised_way_ += now.dt * mechanised_v_;
   last_increment_ = now;
   standstill_.add(now);
   rate_.add(raw);

@@ -13,7 +13,7 @@ namespace {
 using ins::kPosition;
 using ins::kVelocity;
 
-constexpr double kSteadyDifference = 0.15;    // m/s over a second between wheels and accelerometers
+constexpr int kReleaseMean = 5;               // updates over which velocities have to agree
 constexpr double kForcedVelocitySigma = 0.1;  // m/s
 
 }  // namespace
@@ -70,6 +70,7 @@ IngestReport SinsDr::compare(Stamp stamp) {
   propagate();
   const auto difference = positionDifference(belief_.mean, ageOf(stamp));
   const double nis = slip_.isolated() ? 0.0 : filters::normalisedSquare(belief_, difference, noise_.R());
+  watchSlide(stamp);
   const SlipAction action = slip_.observe(evidence(stamp, nis));
   IngestReport report{.verdict = Verdict::Applied, .dof = 3, .nis = nis};
   if (slip_.isolated() && action != SlipAction::Isolate) report.dof = 0;
@@ -81,36 +82,75 @@ IngestReport SinsDr::compare(Stamp stamp) {
   return report;
 }
 
-/// Mean velocities over the time since the last update, so that a counter's whole ticks do not look like
-/// slip.
+/// Of the mean velocity since the last update, along the way: what the wheels walk at random in that time,
+/// two averaged, and what the settings say beside it.
+double SinsDr::wheelVelocitySigma() const {
+  const double walk = 0.5 * ins::wayVariance(config_.odometer, since_update_.way);
+  return std::sqrt(square(config_.slip.velocity_sigma) + walk / square(since_update_.time));
+}
+
+/// Wheels and gyro. A short track makes a turn of the wheels' noise: 0.1 rad/s on 0.2 m at 0.3 m/s over 0.1
+/// s.
+bool SinsDr::turnsAgree() const {
+  const double track = config_.odometer.track;
+  if (track <= 0.0) return true;
+  const double time = since_update_.time;
+  const double turn_rate = rate_.time() > 0.0 ? (rate_.rate() - belief_.mean.gyro_bias).z() : 0.0;
+  const double sigma =
+      std::sqrt(2.0 * ins::wayVariance(config_.odometer, since_update_.way)) / (track * time);
+  return std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate + 2.0 * sigma;
+}
+
 SlipEvidence SinsDr::evidence(Stamp stamp, double difference_nis) const {
   SlipEvidence e{.stamp = stamp, .disagrees = difference_nis > difference_gate_.threshold};
-  const double time = since_update_.time;
-  if (time <= 0.0) return e;
-  SinsDrInput in;
-  in.wheel_v_n = since_update_.moved_n / time;
-  in.wheel_speed = since_update_.way / time;
-  auto velocity = velocityDifference(belief_.mean, in);
-  const Eigen::Vector3d inertial =
-      ins::metresBetween(belief_.mean.earth, coordinates_at_update_, belief_.mean.nav.coordinates) /
-      std::max(seconds(*imu_.stamp() - *update_stamp_), 1e-3);
-  velocity.nu = in.wheel_v_n - inertial;
-  const double nis = filters::normalisedSquare(belief_, velocity, diagonal3(config_.slip.velocity_sigma));
-  const double turn_rate = rate_.time() > 0.0 ? (rate_.rate() - belief_.mean.gyro_bias).z() : 0.0;
-  const bool turns_agree = config_.odometer.track <= 0.0 ||
-                           std::abs(since_update_.turn / time - turn_rate) < config_.slip.release_yaw_rate;
-  e.velocities_agree = nis < chiSquareQuantile(config_.slip.release_confidence, 3.0) && turns_agree;
-  // Steady throughout: wheels that shake agree with the accelerometers now and then by chance.
-  e.wheels_steady = turns_agree && !last_second_.empty() &&
-                    seconds(stamp - last_second_.front().stamp) > 0.9 &&
-                    std::all_of(last_second_.begin(), last_second_.end(), [&](const Speeds& before) {
-                      const Eigen::Vector3d wheels = in.wheel_v_n - before.wheels;
-                      return (wheels - (belief_.mean.nav.v_n - before.inertial)).norm() < kSteadyDifference;
-                    });
-  e.standing = config_.slip.standstill_updates && quiet();
-  const double variance = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
-  e.position_sigma = std::sqrt(std::max(0.0, variance - variance_when_isolated_));
+  if (since_update_.time <= 0.0) return e;
+  e.jump = jump();
+  e.disagrees = e.disagrees || e.jump != 0.0;
+  if (slip_.isolated()) addReturn(e);
   return e;
+}
+
+/// By how much the wheels gained on the accelerometers within a second (m/s along the way); zero when that is
+/// noise.
+double SinsDr::jump() const {
+  const std::optional<SlideMean> jump = slide_.jump();
+  if (!jump) return 0.0;
+  const double variance =
+      jump->variance + std::max(0.0, belief_.covariance(kScale, kScale)) * jump->wheels.squaredNorm();
+  const double along = jump->difference.dot(belief_.mean.nav.q_n_b * belief_.mean.rollingDirection());
+  return jump->difference.head<2>().squaredNorm() > jump_gate_.threshold * variance ? along : 0.0;
+}
+
+/// What speaks for believing the wheels again. Velocities are means over several updates, so that a counter's
+/// whole ticks do not look like slip.
+void SinsDr::addReturn(SlipEvidence& e) const {
+  SinsDrInput in;
+  in.wheel_v_n = since_update_.moved_n / since_update_.time;
+  in.wheel_speed = since_update_.way / since_update_.time;
+  const SlideMean mean = slide_.newest(kReleaseMean);
+  auto velocity = velocityDifference(belief_.mean, in);
+  velocity.nu = mean.difference + mechanised_v_ - belief_.mean.nav.v_n;
+  const auto& P = belief_.covariance;
+  const double nis =
+      filters::normalisedSquare(belief_, velocity, Matrix<3, 3>(mean.variance * Matrix<3, 3>::Identity()));
+  const bool turns_agree = turnsAgree();
+  e.velocities_agree = nis < release_gate_.threshold && turns_agree && slide_.steady(kReleaseMean);
+  e.velocity_sigma =
+      std::sqrt(mean.variance + std::max(0.0, 0.5 * P.block<2, 2>(kVelocity, kVelocity).trace()));
+  e.wheels_steady = turns_agree && slide_.steady();
+  e.offset = slide_.sinceMark(kReleaseMean).dot(belief_.mean.nav.q_n_b * belief_.mean.rollingDirection());
+  e.standing = config_.slip.standstill_updates && quiet();
+  const double variance = P.block<2, 2>(kPosition, kPosition).trace();
+  e.position_sigma = std::sqrt(std::max(0.0, variance - variance_when_isolated_));
+}
+
+void SinsDr::watchSlide(Stamp stamp) {
+  const double inertial_time = seconds(*imu_.stamp() - *update_stamp_);
+  if (since_update_.time > 0.0 && inertial_time > 0.0) {
+    slide_.add({stamp, since_update_.moved_n / since_update_.time, mechanised_way_ / inertial_time,
+                wheelVelocitySigma(), belief_.mean.nav.v_n - mechanised_v_});
+  }
+  mechanised_way_.setZero();
 }
 
 IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
@@ -129,6 +169,9 @@ IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
       break;
     case SlipAction::Isolate:
       variance_when_isolated_ = belief_.covariance.block<2, 2>(kPosition, kPosition).trace();
+      // A slip that is seen after half a second has pulled the velocity until then.
+      if (jump() != 0.0) belief_.mean.nav.v_n -= slide_.fedBack();
+      slide_.mark();
       reanchor(belief_);
       report.verdict = Verdict::Gated;
       report.reason = "wheels and inertial unit disagree";
@@ -150,10 +193,8 @@ IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
       report.event = "wheels left out for too long: their velocity is taken";
       break;
   }
-  if (since_update_.time > 0.0) {
-    last_second_.push_back({stamp, since_update_.moved_n / since_update_.time, belief_.mean.nav.v_n});
-    while (seconds(stamp - last_second_.front().stamp) > 1.05) last_second_.pop_front();
-  }
+  // What was slip is not held against wheels that are believed again.
+  if (action == SlipAction::Release || action == SlipAction::ForceBack) slide_.forget();
   return report;
 }
 

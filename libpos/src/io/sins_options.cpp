@@ -111,9 +111,12 @@ OptionTable<SlipConfig> slipOptions() {
               "Wheels and gyro also have to agree on the turn within this.")
       .number("velocity_sigma_m_per_s", &SlipConfig::velocity_sigma, moreThan(0),
               "Standard deviation of the wheels' velocity in that test.")
-      .number("max_time_s", &SlipConfig::max_time, moreThan(0), "Longest time without wheels.")
+      .number("degraded_after_s", &SlipConfig::degraded_after, moreThan(0),
+              "Time without wheels after which the position is called degraded.")
       .number("max_sigma_m", &SlipConfig::max_sigma, moreThan(0),
-              "Or until the position has become so much less sure.")
+              "When the position has become so much less sure without wheels, it is degraded too, and the "
+              "velocity of steady wheels is "
+              "taken.")
       .flag("standstill_updates", &SlipConfig::standstill_updates,
             "Whether a quiet inertial unit means standing while the wheels are left out.")
       .number("lateral_sigma_m_per_s", &SlipConfig::lateral_sigma, moreThan(0),

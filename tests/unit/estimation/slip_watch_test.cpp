@@ -46,37 +46,84 @@ TEST(SlipWatch, ThreeAgreementsInARowRelease) {
   EXPECT_EQ(watch.observe(evidence(0.8, true)), SlipAction::Skip) << "old exceedances are forgotten";
 }
 
-TEST(SlipWatch, IsolationIsBoundedByTimeAndBySigma) {
-  SlipWatch by_time({.max_time = 2.0});
-  by_time.observe(evidence(0.0, true));
-  by_time.observe(evidence(0.1, true));
-  EXPECT_EQ(by_time.observe(evidence(2.0, false)), SlipAction::Stay);
-  EXPECT_FALSE(by_time.degraded());
-  EXPECT_EQ(by_time.observe(evidence(2.2, false)), SlipAction::Stay) << "wheels are not steady";
-  EXPECT_TRUE(by_time.degraded());
-  SlipEvidence steady = evidence(2.3, false);
-  steady.wheels_steady = true;
-  EXPECT_EQ(by_time.observe(steady), SlipAction::ForceBack);
-  EXPECT_FALSE(by_time.isolated());
+SlipWatch isolatedAtOnce(const SlipConfig& config) {
+  SlipWatch watch(config);
+  watch.observe(evidence(0.0, true));
+  watch.observe(evidence(0.1, true));
+  return watch;
+}
 
-  SlipWatch by_sigma({.max_sigma = 0.2});
-  by_sigma.observe(evidence(0.0, true));
-  by_sigma.observe(evidence(0.1, true));
-  SlipEvidence lost = evidence(0.2, false);
-  lost.position_sigma = 0.3;
-  EXPECT_EQ(by_sigma.observe(lost), SlipAction::Stay);
-  EXPECT_TRUE(by_sigma.degraded());
+SlipEvidence steadyWheels(double t_s, double position_sigma) {
+  SlipEvidence e = evidence(t_s, false);
+  e.wheels_steady = true;
+  e.position_sigma = position_sigma;
+  return e;
+}
+
+TEST(SlipWatch, AgreementWithAVagueVelocityNeedsWheelsThatWentBack) {
+  SlipWatch watch({});
+  SlipEvidence slip = evidence(0.0, true);
+  slip.jump = 0.09;
+  watch.observe(slip);
+  slip.stamp = at(0.1);
+  ASSERT_EQ(watch.observe(slip), SlipAction::Isolate);
+  SlipEvidence vague = evidence(2.0, false, true);
+  vague.velocity_sigma = 0.03;  // 0.09 m/s would hide in it
+  vague.wheels_steady = true;
+  vague.offset = 0.09;
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(watch.observe(vague), SlipAction::Stay);
+  SlipEvidence back = vague;
+  back.jump = -0.08;
+  EXPECT_EQ(watch.observe(back), SlipAction::Stay);
+  EXPECT_EQ(watch.observe(vague), SlipAction::Stay);
+  EXPECT_EQ(watch.observe(vague), SlipAction::Release);
+}
+
+TEST(SlipWatch, AFalseAlarmIsOverWithinASecond) {
+  SlipWatch watch({});
+  SlipEvidence noise = evidence(0.0, true);
+  noise.jump = 0.08;
+  watch.observe(noise);
+  noise.stamp = at(0.1);
+  ASSERT_EQ(watch.observe(noise), SlipAction::Isolate);
+  SlipAction last = SlipAction::Stay;
+  double t = 0.2;
+  for (; t < 2.0 && last == SlipAction::Stay; t += 0.1) {
+    SlipEvidence e = evidence(t, false, true);
+    e.velocity_sigma = 0.02;
+    e.wheels_steady = true;
+    e.offset = 0.01;
+    last = watch.observe(e);
+  }
+  EXPECT_EQ(last, SlipAction::Release);
+  EXPECT_LT(t, 1.2);
+}
+
+TEST(SlipWatch, TimeDegradesThePositionAndDoesNotBringTheWheelsBack) {
+  SlipWatch watch = isolatedAtOnce({.degraded_after = 2.0});
+  EXPECT_EQ(watch.observe(steadyWheels(2.0, 0.1)), SlipAction::Stay);
+  EXPECT_FALSE(watch.degraded());
+  EXPECT_EQ(watch.observe(steadyWheels(2.2, 0.1)), SlipAction::Stay) << "wheels 30 % too fast are steady too";
+  EXPECT_TRUE(watch.degraded());
+  EXPECT_TRUE(watch.isolated());
+}
+
+TEST(SlipWatch, SteadyWheelsAreTakenBackWhenTheInertialVelocityIsWornOut) {
+  SlipWatch watch = isolatedAtOnce({.max_sigma = 0.2});
+  SlipEvidence shaking = steadyWheels(0.2, 0.3);
+  shaking.wheels_steady = false;
+  EXPECT_EQ(watch.observe(shaking), SlipAction::Stay);
+  EXPECT_TRUE(watch.degraded());
+  EXPECT_EQ(watch.observe(steadyWheels(0.3, 0.3)), SlipAction::ForceBack);
+  EXPECT_FALSE(watch.isolated());
 }
 
 TEST(SlipWatch, SteadyWheelsAreNotTakenBackWhileTheVehicleStands) {
-  SlipWatch watch({.max_time = 2.0});
-  watch.observe(evidence(0.0, true));
-  watch.observe(evidence(0.1, true));
-  SlipEvidence standing = evidence(3.0, false);
-  standing.wheels_steady = true;
+  SlipWatch watch = isolatedAtOnce({.max_sigma = 0.2});
+  SlipEvidence standing = steadyWheels(3.0, 0.3);
   standing.standing = true;
   EXPECT_EQ(watch.observe(standing), SlipAction::Stay);
-  EXPECT_TRUE(watch.degraded()) << "but it says for how long they have been out";
+  EXPECT_TRUE(watch.degraded()) << "but it says so";
   standing.standing = false;
   EXPECT_EQ(watch.observe(standing), SlipAction::ForceBack);
 }

@@ -49,8 +49,8 @@ struct SlipConfig {
   int release_updates = 3;           ///< ... so many times in a row
   double release_yaw_rate = 0.1;     ///< rad/s, and wheels and gyro agree on the turn within this
   double velocity_sigma = 0.02;      ///< m/s, of the wheels' velocity in that test
-  double max_time = 8.0;             ///< s, longest isolation
-  double max_sigma = 0.5;            ///< m, or until the position is no better than this
+  double degraded_after = 8.0;       ///< s without wheels: the position is called degraded
+  double max_sigma = 0.5;            ///< m, gained without wheels: the inertial velocity is given up
   bool standstill_updates = true;    ///< while isolated and the inertial unit is quiet, the vehicle stands
   double lateral_sigma = 0.05;       ///< m/s, sideways and upward speed while isolated
 

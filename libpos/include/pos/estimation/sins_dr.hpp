@@ -3,7 +3,6 @@
 /// their positions, learnt noise, slip isolation and outside fixes (Jiang et al. 2024, corrected).
 /// docs/math/sins_dr.md walks through it in the order of this code.
 
-#include <deque>
 #include <memory>
 #include <optional>
 
@@ -13,6 +12,7 @@
 #include "pos/estimation/map_earth.hpp"
 #include "pos/estimation/sins_state.hpp"
 #include "pos/estimation/slip_watch.hpp"
+#include "pos/estimation/wheel_slide.hpp"
 #include "pos/filters/noise_adaptation.hpp"
 
 namespace pos::estimation {
@@ -62,6 +62,11 @@ class SinsDr final : public Estimator {
   IngestReport roll(Stamp stamp, const WheelIntake::Told& told);
   IngestReport compare(Stamp stamp);
   SlipEvidence evidence(Stamp stamp, double difference_nis) const;
+  double jump() const;
+  void addReturn(SlipEvidence& evidence) const;
+  void watchSlide(Stamp stamp);
+  double wheelVelocitySigma() const;
+  bool turnsAgree() const;
   IngestReport act(Stamp stamp, SlipAction action, IngestReport report);
   void whileIsolated();
   void takeWheelVelocity();
@@ -71,6 +76,8 @@ class SinsDr final : public Estimator {
   SinsDrConfig config_;
   MapEarth earth_;
   filters::Gate difference_gate_;
+  filters::Gate jump_gate_;
+  filters::Gate release_gate_;
   Belief<SinsDrState> belief_;
   bool running_ = false;
   std::optional<Belief<Pose2>> given_;  // by reset
@@ -95,12 +102,9 @@ class SinsDr final : public Estimator {
 
   SlipWatch slip_;
   double variance_when_isolated_ = 0.0;
-  struct Speeds {
-    Stamp stamp;
-    Eigen::Vector3d wheels;
-    Eigen::Vector3d inertial;
-  };
-  std::deque<Speeds> last_second_;
+  WheelSlide slide_;
+  Eigen::Vector3d mechanised_v_ = Eigen::Vector3d::Zero();    // m/s, changes by the strapdown alone
+  Eigen::Vector3d mechanised_way_ = Eigen::Vector3d::Zero();  // m, its integral since the last update
   filters::NoiseAdaptation<3> noise_;
   double last_nis_ = 0.0;
 };
