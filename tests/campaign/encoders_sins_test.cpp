@@ -58,15 +58,21 @@ TEST(EncodersSins, Be3Slip) {
   for (const char* name : {"isolated", "isolated_standstill"}) {
     double latest_out = 0.0;
     double latest_back = 0.0;
+    int late = 0;
     for (const WheelRun& run : all.at(name)) {
       const auto out = std::find_if(run.out.begin(), run.out.end(), [](double t) { return t >= 7.0; });
       const auto back = std::find_if(run.back.begin(), run.back.end(), [](double t) { return t >= 13.0; });
       ASSERT_TRUE(out != run.out.end() && back != run.back.end()) << name;
       latest_out = std::max(latest_out, *out);
       latest_back = std::max(latest_back, *back);
+      late += *back > 14.0 ? 1 : 0;
+      if (*back > 14.0)
+        std::printf("%s run %d back at %.2f\n", name, static_cast<int>(&run - all.at(name).data()) + 1,
+                    *back);
       EXPECT_FALSE(run.ends_out);
     }
-    std::printf("%s: left out at %.2f s at the latest, back at %.2f s\n", name, latest_out, latest_back);
+    std::printf("%s: left out at %.2f s at the latest, back at %.2f s, %d of %d after 14 s\n", name,
+                latest_out, latest_back, late, kRuns);
     EXPECT_LE(latest_out, 7.5);
     EXPECT_LE(latest_back, 14.0);
   }

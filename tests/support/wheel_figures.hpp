@@ -98,6 +98,12 @@ class OutWatch {
   std::optional<double> since_;
 };
 
+/// The configuration says `sensors: [{sensor: ..., use: false}]`.
+inline bool switchedOff(const io::RunConfig& config, const Measurement& m) {
+  return std::any_of(config.sensors.begin(), config.sensors.end(),
+                     [&](const io::SensorConfig& s) { return s.sensor == m.sensor && !s.use; });
+}
+
 /// Every estimator of the scene over one seed. `edit` may change a configuration for the seed.
 inline std::map<std::string, WheelRun> wheelRun(
     const WheelScene& scene, std::uint64_t seed,
@@ -120,6 +126,7 @@ inline std::map<std::string, WheelRun> wheelRun(
   Stamp scored = simulation.start();
   while (const auto delivery = simulation.next()) {
     const Measurement& m = delivery->measurement;
+    if (switchedOff(scene.config, m)) continue;
     const bool wheels = std::holds_alternative<WheelTicks>(m.reading);
     const bool due = wheels && seconds(m.stamp - scored) >= kScoreInterval - 1e-6;
     if (due) {

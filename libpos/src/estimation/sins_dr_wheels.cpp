@@ -71,10 +71,12 @@ IngestReport SinsDr::compare(Stamp stamp) {
   const auto difference = positionDifference(belief_.mean, ageOf(stamp));
   const double nis = slip_.isolated() ? 0.0 : filters::normalisedSquare(belief_, difference, noise_.R());
   watchSlide(stamp);
+  const bool was_degraded = slip_.degraded();
   const SlipAction action = slip_.observe(evidence(stamp, nis));
   IngestReport report{.verdict = Verdict::Applied, .dof = 3, .nis = nis};
   if (slip_.isolated() && action != SlipAction::Isolate) report.dof = 0;
   report = act(stamp, action, report);
+  if (slip_.degraded() && !was_degraded) report.event = "wheels left out for too long: position degraded";
   update_stamp_ = stamp;
   coordinates_at_update_ = belief_.mean.nav.coordinates;
   since_update_ = {};
@@ -155,7 +157,6 @@ void SinsDr::watchSlide(Stamp stamp) {
 
 IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
   last_nis_ = report.nis;
-  const bool was_degraded = slip_.degraded();
   switch (action) {
     case SlipAction::Use: {
       const auto told = correctDifference(belief_, ageOf(stamp), noise_.R());
@@ -181,7 +182,6 @@ IngestReport SinsDr::act(Stamp stamp, SlipAction action, IngestReport report) {
       whileIsolated();
       report.verdict = Verdict::Gated;
       report.reason = "wheels are left out until they agree again";
-      if (slip_.degraded() && !was_degraded) report.event = "wheels left out for too long: position degraded";
       break;
     case SlipAction::Release:
       reanchor(belief_);
