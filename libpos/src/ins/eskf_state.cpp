@@ -62,4 +62,9 @@ void turnAttitude(Matrix<15, 15>& P, const Eigen::Matrix3d& block) {
   P.block<3, 3>(a, a) = 0.5 * (corner + corner.transpose());
 }
 
+Matrix<15, 15> transported(const EskfState& /*x*/, const Vector<15>& e, Matrix<15, 15> P) {
+  turnAttitude(P, rightJacobianInverse(e.segment<3>(EskfState::kAttitude)));
+  return P;
+}
+
 }  // namespace pos::ins

@@ -1,5 +1,6 @@
 #include "pos/io/estimator_options.hpp"
 
+#include "pos/io/seamless_options.hpp"
 #include "pos/io/sins_options.hpp"
 
 #include <array>
@@ -256,7 +257,9 @@ OptionTable<EstimatorEntry> estimatorOptions() {
       .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.")
       .alternative("dual_uwb", config, dualUwbOptions(), "Two or more radio tags: pose, speed and yaw rate.")
       .alternative("sins_dr", config, sinsDrOptions(),
-                   "Inertial navigation and wheels, with slip isolation.");
+                   "Inertial navigation and wheels, with slip isolation.")
+      .alternative("seamless", config, seamlessOptions(),
+                   "Satellites on the surface, radio under ground, one inertial unit.");
 }
 
 }  // namespace pos::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <variant>
 
 namespace pos::sim {
 namespace {
@@ -43,9 +44,10 @@ std::vector<double> changes(const ZoneAt& zone_at, double duration) {
 
 struct ZonesOf {
   const Simulation& simulation;
+  Eigen::Vector3d mount;  // m, of the sensor on the body
 
   ZoneAt operator()(const GnssConfig& gnss) const {
-    return [this, zones = gnss.zones, lever = gnss.antenna_body](double t) {
+    return [this, zones = gnss.zones, lever = Eigen::Vector3d(gnss.antenna_body + mount)](double t) {
       const Kinematics body = simulation.truthAt(t);
       return firstHolding(zones, t, (body.p_map + body.R_map_body * lever).head<2>());
     };
@@ -64,9 +66,11 @@ struct ZonesOf {
 }  // namespace
 
 std::vector<Stamp> zoneChanges(const Scenario& scenario, const Simulation& simulation) {
-  const ZonesOf zones_of{simulation};
   std::vector<Stamp> all;
   for (const SensorEntry& sensor : scenario.sensors) {
+    const Eigen::Vector3d mount =
+        sensor.mount.empty() ? Eigen::Vector3d::Zero() : scenario.vehicle.mount(sensor.mount).p_body;
+    const ZonesOf zones_of{simulation, mount};
     const ZoneAt zone_at = std::visit(zones_of, sensor.model);
     if (!zone_at) continue;
     for (const double t : changes(zone_at, simulation.duration()))

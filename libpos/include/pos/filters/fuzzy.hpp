@@ -70,7 +70,7 @@ enum class FuzzyVariant {
 };
 struct FuzzyConfig {
   FuzzyVariant variant = FuzzyVariant::Incremental;
-  double gain = 0.5;  ///< of `Incremental`; D rises by 1.12 per dI at most, so below 0.89 no step doubles
+  double gain = 0.5;  ///< of `Incremental`, at most 0.6: D rises by up to 1.6 per dI, and no step may double
   RuleTable rules = symmetricRules();  ///< `Paper` has its own unless these were changed
 
   bool operator==(const FuzzyConfig&) const = default;

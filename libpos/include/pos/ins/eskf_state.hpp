@@ -43,4 +43,7 @@ Eigen::Matrix3d rightJacobianInverse(const Eigen::Vector3d& theta);
 /// lies dtheta before this one (mixing of filters).
 void turnAttitude(Matrix<15, 15>& P, const Eigen::Matrix3d& block);
 
+/// P of a filter at `x` as seen from the state from which x lies at `e`: what filters::merged asks for.
+Matrix<15, 15> transported(const EskfState& x, const Vector<15>& e, Matrix<15, 15> P);
+
 }  // namespace pos::ins

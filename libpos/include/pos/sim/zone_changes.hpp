@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "pos/sim/scenario.hpp"
 #include "pos/sim/simulation.hpp"
 
 namespace pos::sim {
