@@ -11,12 +11,12 @@ std::shared_ptr<map::TunnelMap> mine() {
   mine->name = "mine";
   map::Roadway road;
   road.id = "road";
-  road.centreline = {{0, 0, 0}, {400, 0, -40}};
+  road.centreline = {{.p_map = {0, 0, 0}}, {.p_map = {400, 0, -40}}};
   road.width = 5;
   road.height = 4;
   map::Roadway drift = road;
   drift.id = "drift";
-  drift.centreline = {{300, 50, -30}, {300, 150, -30}};
+  drift.centreline = {{.p_map = {300, 50, -30}}, {.p_map = {300, 150, -30}}};
   mine->roadways = {road, drift};
   mine->portals = {{.id = "P", .place = {"road", 100.0}, .handover_from = 80.0, .handover_to = 200.0}};
   return mine;

@@ -45,9 +45,9 @@ TEST(Switching, ABetterModeThatJoinsHasSettledWhenItLeadsAndStaysSo) {
   story.say(0.001, 5);
   story.joins(story.uwb);  // at 1.05
   story.say(0.001);
-  story.say(0.60);         // 1.06, leads, but jumped
-  story.say(0.95);         // 1.07, jumped
-  story.say(0.97, 10);     // 1.08: first of the steady ones
+  story.say(0.60);      // 1.06, leads, but jumped
+  story.say(0.95);      // 1.07, jumped
+  story.say(0.97, 10);  // 1.08: first of the steady ones
   const SwitchingFigures figures = story.watch.finish();
   ASSERT_EQ(figures.switches.size(), 1U);
   EXPECT_EQ(figures.switches[0].change, "+uwb");

@@ -26,7 +26,8 @@ ErrorSample sample(double t, double x, double y, double z) {
 TEST(Windows, WindowsOfOneNameAreTakenTogetherAndBordersCount) {
   const ErrorSeries errors{sample(0.0, 9, 0, 0), sample(1.0, -3, 4, 12), sample(2.0, 1, 0, 0),
                            sample(3.0, 9, 9, 9), sample(4.0, 2, 0, 0)};
-  const auto all = windowErrors(errors, {{"a", at(1.0), at(2.0)}, {"b", at(8.0), at(9.0)}, {"a", at(4.0), at(5.0)}});
+  const auto all =
+      windowErrors(errors, {{"a", at(1.0), at(2.0)}, {"b", at(8.0), at(9.0)}, {"a", at(4.0), at(5.0)}});
   ASSERT_EQ(all.size(), 2U);
   const WindowErrors& a = all[0];
   EXPECT_EQ(a.errors[0].count, 3U);
