@@ -177,7 +177,7 @@ IngestReport Seamless::take(Stamp stamp, const BeaconRange& range) {
   if (found == anchors_.end()) return refusal(Verdict::Degenerate, "the map has no such anchor");
   if (!running_) return refusal(Verdict::NotInitialised, kStanding);
   const auto mount = std::find_if(config_.mounts.tags.begin(), config_.mounts.tags.end(),
-                                  [&](const SeamlessTag& tag) { return tag.id == range.tag; });
+                                  [&](const TagMount& tag_mount) { return tag_mount.id == range.tag; });
   const Eigen::Vector3d tag =
       mount != config_.mounts.tags.end() ? mount->p_body : range.tag_body.value_or(Eigen::Vector3d::Zero());
   const std::string_view event = advance(stamp);

@@ -16,9 +16,7 @@ GnssUse validated(GnssUse config) {
 
 UwbUse validated(UwbUse config) {
   requirePositive(config.sigma, "sigma_m");
-  requirePositive(config.soft_late, "soft_late");
-  require(config.soft_late <= config.soft, "soft_late", "no more than soft");
-  require(config.soft < config.hard, "soft", "less than hard");
+  requireValid(config.robust, "robust");
   requireNotNegative(config.adapt_count, "adapt_count");
   return config;
 }
@@ -51,6 +49,7 @@ SeamlessConfig validated(SeamlessConfig config) {
   requirePositive(config.start.yaw_sigma, "start.yaw_sigma_deg");
   requirePositive(config.height_sigma, "height_sigma_m");
   requirePositive(config.velocity_sigma, "velocity_sigma_m_per_s");
+  under("mounts", [&] { requireUniqueTags(config.mounts.tags); });
   requireValid(config.imu, "imu");
   requireValid(config.alignment, "alignment");
   requireValid(config.standstill, "standstill");

@@ -188,11 +188,9 @@ IngestReport SeamlessCore::take(const Eigen::Vector3d& antenna_map, const Matrix
 }
 
 std::optional<double> SeamlessCore::weighted(double nu, double state_variance, double variance) const {
-  if (!config_->uwb.robust) return variance;
-  const double s = std::abs(nu) / std::sqrt(state_variance + variance);
-  const double soft = nu > 0.0 ? config_->uwb.soft_late : config_->uwb.soft;
-  if (s > config_->uwb.hard) return std::nullopt;
-  return s > soft ? variance * s / soft : variance;
+  const double s = nu / std::sqrt(state_variance + variance);
+  const std::optional<double> factor = filters::varianceFactor(config_->uwb.robust, s);
+  return factor ? std::optional(variance * *factor) : std::nullopt;
 }
 
 void SeamlessCore::learnRanges(double nu, double expected_variance) {

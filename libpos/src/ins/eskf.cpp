@@ -178,9 +178,10 @@ EskfStep stepped(const EskfState& x, const ImuIncrement& raw, double gravity) {
   const Eigen::Matrix3d odd = s.turn.first * T;
   const Eigen::Matrix3d even = I + s.turn.second * T2;
   const double sinc = 1.0 - s.theta.squaredNorm() * s.turn.second;  // sin n / n
-  // d u / d theta, where J_l's coefficients count as constant
+  // d u / d theta; of the coefficients' own change what matters at any turn a sample makes
   const Eigen::Matrix3d dV = skew(s.dv);
-  const Eigen::Matrix3d u_by_theta = -s.turn.first * dV - s.turn.second * (skew(s.c) + T.lazyProduct(dV));
+  const Eigen::Matrix3d u_by_theta = -s.turn.first * dV - s.turn.second * (skew(s.c) + T.lazyProduct(dV)) -
+                                     s.c * (s.theta / 12.0).transpose();
   EskfStep step;
   step.next = moved(x, s, R, dt, gravity);
   step.F.dt = dt;

@@ -2,6 +2,7 @@
 
 #include "pos/io/estimator_options.hpp"
 #include "pos/io/sins_options.hpp"
+#include "pos/io/uwb_imu_options.hpp"
 
 namespace pos::io {
 namespace {
@@ -11,7 +12,6 @@ using estimation::InteractionConfig;
 using estimation::SeamlessAids;
 using estimation::SeamlessConfig;
 using estimation::SeamlessMounts;
-using estimation::SeamlessTag;
 using estimation::UwbUse;
 using filters::FuzzyConfig;
 using filters::FuzzyVariant;
@@ -27,21 +27,6 @@ OptionTable<Eigen::Vector3d> placeOptions(const std::string& title) {
           "y_m", [](auto& p) -> auto& { return p.y(); }, between(-100, 100), "Left of the body frame.")
       .number(
           "z_m", [](auto& p) -> auto& { return p.z(); }, between(-100, 100), "Above the body frame.");
-}
-
-OptionTable<SeamlessTag> tagOptions() {
-  return OptionTable<SeamlessTag>("tags", "Where a tag sits; goes before what the log says of it.")
-      .integer("id", &SeamlessTag::id, anything(), "The radio's own number.")
-      .required()
-      .number(
-          "x_m", [](auto& tag) -> auto& { return tag.p_body.x(); }, between(-100, 100),
-          "Forward of the body frame.")
-      .number(
-          "y_m", [](auto& tag) -> auto& { return tag.p_body.y(); }, between(-100, 100),
-          "Left of the body frame.")
-      .number(
-          "z_m", [](auto& tag) -> auto& { return tag.p_body.z(); }, between(-100, 100),
-          "Above the body frame.");
 }
 
 OptionTable<SeamlessMounts> mountOptions() {
@@ -77,10 +62,7 @@ OptionTable<GnssUse> gnssOptions() {
 OptionTable<UwbUse> uwbOptions() {
   return OptionTable<UwbUse>("uwb", "Radio ranges.")
       .number("sigma_m", &UwbUse::sigma, moreThan(0), "Standard deviation of a range in sight.")
-      .flag("robust", &UwbUse::robust, "Whether doubtful ranges count less.")
-      .number("soft", &UwbUse::soft, moreThan(0), "Beyond so many sigmas a range counts less ...")
-      .number("soft_late", &UwbUse::soft_late, moreThan(0), "... one that is too long, from here on.")
-      .number("hard", &UwbUse::hard, moreThan(0), "Beyond so many sigmas it is left out.")
+      .table("robust", &UwbUse::robust, robustOptions(), "How far a range that surprises is believed.")
       .number("adapt_count", &UwbUse::adapt_count, between(0, 1e6),
               "Ranges over which it is learnt how much worse they are than sigma_m; 0: it is not.")
       .flag("masked", &UwbUse::masked, "Leaves the radio out everywhere.")

@@ -99,7 +99,7 @@ SeamlessConfig settings() {
   SeamlessConfig config;
   config.variant = SeamlessConfig::Variant::Imm;
   config.standstill.threshold = 12.0;
-  config.uwb.robust = false;
+  config.uwb.robust.form = filters::RobustConfig::Form::None;
   return config;
 }
 

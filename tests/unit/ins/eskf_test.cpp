@@ -22,8 +22,8 @@ Eigen::Vector3d triple(RandomStream& random, double size) {
 
 EskfState someState(RandomStream& random) {
   EskfState x;
-  x.p_map = triple(random, 100.0);
-  x.v_map = triple(random, 10.0);
+  x.p_map = triple(random, 1.0);
+  x.v_map = triple(random, 3.0);
   x.q_map_body = quaternionFromRotationVector(triple(random, 1.8));
   x.accelerometer_bias = triple(random, 0.05);
   x.gyro_bias = triple(random, 0.01);
@@ -57,8 +57,7 @@ TEST(Eskf, TransitionIsTheDerivativeOfTheStep) {
       const Eigen::MatrixXd numeric = testing::numericJacobian(x, 15, [&](const EskfState& y) {
         return Eigen::VectorXd(minus(steppedMean(y, sample, kGravity), step.next));
       });
-      // What F leaves out of the turn's coefficients is of the third order in the sample's length.
-      EXPECT_LT((step.F.dense() - numeric).cwiseAbs().maxCoeff(), 2e-9 + 2.0 * dt * dt * dt * dt) << dt;
+      EXPECT_LT((step.F.dense() - numeric).cwiseAbs().maxCoeff(), 1e-9 + 4.0 * std::pow(dt, 5)) << dt;
     }
   }
 }

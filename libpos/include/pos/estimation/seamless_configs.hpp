@@ -5,28 +5,21 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "pos/core/measurement.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
+#include "pos/estimation/tag_mount.hpp"
 #include "pos/filters/fuzzy.hpp"
 #include "pos/filters/imm.hpp"
+#include "pos/filters/robust_weight.hpp"
 
 namespace pos::estimation {
-
-/// Where a tag sits on the body.
-struct SeamlessTag {
-  TagId id = 0;
-  Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< m, FLU
-
-  bool operator==(const SeamlessTag&) const = default;
-};
 
 /// Where things sit on the body (m, FLU).
 struct SeamlessMounts {
   Eigen::Vector3d imu = Eigen::Vector3d::Zero();
   Eigen::Vector3d gnss = Eigen::Vector3d::Zero();
   Eigen::Vector3d axle = Eigen::Vector3d::Zero();  ///< middle of the axle that does not steer
-  std::vector<SeamlessTag> tags = {};              ///< those not listed: where the log says
+  std::vector<TagMount> tags = {};                 ///< those not listed: where the log says
 
   bool operator==(const SeamlessMounts&) const = default;
 };
@@ -53,11 +46,8 @@ struct GnssUse {
 };
 
 struct UwbUse {
-  double sigma = 0.10;     ///< m, of a range in sight
-  bool robust = true;      ///< doubtful ranges count less (IGG III), else all count the same
-  double soft = 1.5;       ///< k0: beyond so many sigmas a range counts less ...
-  double soft_late = 1.0;  ///< k0+: ... a range that is too long already from here on, for rock only delays
-  double hard = 3.5;       ///< k1: beyond this it is left out
+  double sigma = 0.10;           ///< m, of a range in sight
+  filters::RobustConfig robust;  ///< how doubtful ranges count
   /// Learns from the ranges how much worse than `sigma` they are, over about so many of them; 0: does not.
   double adapt_count = 0.0;
   bool masked = false;  ///< left out everywhere, the operator's word

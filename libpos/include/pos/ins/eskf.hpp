@@ -46,7 +46,7 @@ struct EskfStep {
 
 /// One sample of the unit, biases and all, further: force and turn rate are constant in body axes over the
 /// sample, and for that case attitude and velocity are exact and the position is the trapezoid's. dt = 0
-/// changes nothing. Nothing is left out of F but what is below the square of the sample's turn.
+/// changes nothing. F leaves out only what is below the cube of the sample's turn.
 EskfStep stepped(const EskfState& x, const ImuIncrement& raw, double gravity);
 /// The same without F.
 EskfState steppedMean(const EskfState& x, const ImuIncrement& raw, double gravity);
