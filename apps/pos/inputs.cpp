@@ -12,6 +12,7 @@
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/io/trajectory_io.hpp"
 #include "pos/sim/simulation.hpp"
+#include "pos/sim/zone_changes.hpp"
 
 namespace pos::app {
 namespace {
@@ -127,6 +128,7 @@ void loadScenario(Inputs& inputs) {
   inputs.scenario = std::make_shared<const sim::Scenario>(std::move(scenario));
   const sim::Simulation simulation(*inputs.scenario, inputs.scenario_map, inputs.config.seed);
   inputs.truth = sim::sampledTruth(simulation, source.truth_rate);
+  inputs.boundaries = sim::zoneChanges(*inputs.scenario, simulation);
 }
 
 /// `at_truth`: the place of the first reference pose, as a crew would survey the mark the run starts from.

@@ -39,6 +39,7 @@ struct Inputs {
   std::optional<Truth> truth;
   std::shared_ptr<const sim::Scenario> scenario = {};       ///< where it takes the place of a log
   std::shared_ptr<const map::TunnelMap> scenario_map = {};  ///< what is really there
+  std::vector<Stamp> boundaries = {};                       ///< at which the truth of a scenario changes zone
   std::optional<eval::TimeGrid> grid = {};                  ///< where the run is one of a campaign
 };
 

@@ -68,9 +68,12 @@ void Recorder::note(const Measurement& measurement, const IngestReport& report) 
 }
 
 void Recorder::endEpoch(Stamp stamp) {
-  if (!record_.estimates.empty() && stamp - record_.estimates.back().stamp < shortest_step_) return;
+  const bool thinned = !record_.estimates.empty() && stamp - record_.estimates.back().stamp < shortest_step_;
+  if (thinned && !record_.switching) return;
   const auto estimate = estimator_->estimateAt(stamp);
   if (!estimate) return;
+  watchSwitching(*estimate);
+  if (thinned) return;
   record_.estimates.push_back(*estimate);
   if (files_) {
     files_->tum.write(*estimate);
@@ -81,6 +84,13 @@ void Recorder::endEpoch(Stamp stamp) {
   watch_->take(*estimate);
   const auto fix = watch_->offered(*estimate);
   if (fix && ingest(*fix).verdict == Verdict::Unsupported) watch_->stopOffering();
+}
+
+/// Switching is told from every output, however few are recorded.
+void Recorder::watchSwitching(const Estimate& estimate) {
+  if (estimate.modes.empty()) return;
+  if (!record_.switching) record_.switching.emplace();
+  record_.switching->take(estimate.stamp, estimate.modes);
 }
 
 std::vector<io::RunEvent> Recorder::takeEvents() {

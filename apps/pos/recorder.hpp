@@ -48,6 +48,7 @@ class Recorder {
  private:
   IngestReport ingest(const Measurement& measurement);
   void note(const Measurement& measurement, const IngestReport& report);
+  void watchSwitching(const Estimate& estimate);
 
   std::unique_ptr<estimation::Estimator> estimator_;
   eval::EstimatorRecord record_;

@@ -142,6 +142,18 @@ Truth judged(Truth truth, double skip) {
   return truth;
 }
 
+/// Windows of the configuration as moments; the run begins with its truth, where it has one.
+std::vector<eval::TimeWindow> timeWindows(const Inputs& inputs, const Replayed& replayed) {
+  const bool known = inputs.truth && !inputs.truth->poses.empty();
+  const Stamp start = known ? inputs.truth->poses.front().stamp : replayed.first;
+  std::vector<eval::TimeWindow> windows;
+  for (const io::WindowConfig& window : inputs.config.evaluation.windows) {
+    windows.push_back(
+        {window.name, start + durationFromSeconds(window.from), start + durationFromSeconds(window.to)});
+  }
+  return windows;
+}
+
 }  // namespace
 
 Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress) {
@@ -166,6 +178,8 @@ eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {
   if (inputs.truth) summary.truth_path = eval::pathOf(*inputs.truth, replayed.first);
   eval::EvaluationOptions options = evaluationOptions(config.evaluation);
   options.grid = inputs.grid;
+  options.boundaries = inputs.boundaries;
+  options.windows = timeWindows(inputs, replayed);
   if (replayed.intervals) options.interval_scene = {replayed.intervals, &replayed.intervals->scene};
   summary.interval_scene = options.interval_scene;
   for (const eval::EstimatorRecord& record : replayed.records) {

@@ -4,6 +4,7 @@
 
 #include "common.hpp"
 #include "inputs.hpp"
+#include "pos/filters/fuzzy.hpp"
 #include "pos/io/locks_config.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/run_config.hpp"
@@ -36,6 +37,21 @@ std::string reference() {
          io::markdownReference(io::scenarioOptions()) + "\n" + io::markdownReference(io::locksOptions());
 }
 
+/// The fuzzy controller of `seamless` for the FuzzyLite tools.
+void addFll(CLI::App& parent) {
+  using filters::FuzzyVariant;
+  auto variant = std::make_shared<std::string>("paper");
+  CLI::App* verb =
+      addWriter(parent, "fll", "Write the fuzzy controller of `seamless` (FuzzyLite language)", [variant] {
+        const std::map<std::string, FuzzyVariant> variants{{"paper", FuzzyVariant::Paper},
+                                                           {"paper_sym", FuzzyVariant::PaperSym},
+                                                           {"centroid", FuzzyVariant::Centroid}};
+        return filters::fllText(filters::tableOf({.variant = variants.at(*variant)}));
+      });
+  verb->add_option("--variant", *variant, "Which of its tables")
+      ->check(CLI::IsMember({"paper", "paper_sym", "centroid"}));
+}
+
 }  // namespace
 
 void addConfig(const Verbs& verbs) {
@@ -66,6 +82,7 @@ void addConfig(const Verbs& verbs) {
             [] { return io::jsonSchema(io::scenarioOptions()); });
   addWriter(*schema, "locks", "Write the JSON Schema of a configuration of locks",
             [] { return io::jsonSchema(io::locksOptions()); });
+  addFll(*verb);
   addWriter(*verb, "init", "Write an example configuration with every key explained",
             [] { return io::exampleRunConfig(); });
 }

@@ -100,7 +100,40 @@ std::vector<Subject> subjects() {
   DeadReckoningConfig ekf_states = ekf_heading;
   ekf_states.heading.yaw_bias = {0.0, 0.001, 0.001};
   ekf_states.heading.track_error = {0.0, 0.02, 0.0};
-  return {{"sins_dr", sins, false, false, false, true},
+  UwbImuConfig eskf;  // likewise
+  eskf.start = startAtTruth(StartMode::Known);
+  eskf.first = {InertialStart::Levelling::InMotion, 0.5, 0.5, 0.02, 0.05};
+  eskf.aids.height_sigma = 0.05;
+  UwbImuConfig eskf_biases = eskf;
+  eskf_biases.anchor_bias.sigma = 0.3;
+  eskf_biases.anchor_bias.after = 0.2;
+  eskf_biases.robust.form = filters::RobustConfig::Form::Igg3;
+  UwbImuConfig eskf_late = eskf;
+  eskf_late.lag = 0.5;
+  UwbImuConfig ekf = eskf;
+  ekf.variant = UwbImuConfig::Variant::Ekf;
+  UwbImuConfig ukf = eskf;
+  ukf.variant = UwbImuConfig::Variant::Ukf;
+  UwbImuConfig uwb_only = eskf;  // one anchor at a time: an epoch is a round of all
+  uwb_only.variant = UwbImuConfig::Variant::UwbOnly;
+  uwb_only.epoch_span = 0.45;
+  uwb_only.max_speed = 2.0;
+  SeamlessConfig imm;
+  imm.start = startAtTruth(StartMode::Known);
+  imm.variant = SeamlessConfig::Variant::Imm;
+  imm.aids = {.side_slip_sigma = 0.1, .floor_sigma = 0.1};
+  SeamlessConfig faimm = imm;
+  faimm.variant = SeamlessConfig::Variant::Faimm;
+  faimm.imm.likelihood = filters::LikelihoodForm::PositionDomain;
+  return {{"seamless_imm", imm, false, false, false, true},
+          {"seamless_faimm", faimm, false, false, false, true},
+          {"uwb_imu_eskf", eskf, false, false, false, true},
+          {"uwb_imu_eskf_biases", eskf_biases, false, false, false, true},
+          {"uwb_imu_eskf_late", eskf_late, false, false, false, true},
+          {"uwb_imu_ekf", ekf, false, false, false, true},
+          {"uwb_imu_ukf", ukf, false, false, false, true},
+          {"uwb_imu_uwb_only", uwb_only},
+          {"sins_dr", sins, false, false, false, true},
           {"dead_reckoning_encoders", encoders},
           {"dead_reckoning_encoders_attitude", attitude, false, false, false, true},
           {"dead_reckoning_ekf_heading", ekf_heading, false, false, false, true},

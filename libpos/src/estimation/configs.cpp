@@ -6,7 +6,6 @@
 #include "pos/core/config_checks.hpp"
 
 namespace pos::estimation {
-namespace {
 
 void requireUniqueTags(const std::vector<TagMount>& tags) {
   std::set<TagId> seen;
@@ -18,6 +17,8 @@ void requireUniqueTags(const std::vector<TagMount>& tags) {
     }
   }
 }
+
+namespace {
 
 /// A table of biases holds all that a link reads too long: beside it nothing else may say so.
 void requireBiasesOnce(const DualUwbConfig& config) {

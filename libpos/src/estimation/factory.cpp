@@ -8,7 +8,9 @@
 #include "pos/estimation/dual_uwb_filter.hpp"
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/range_odometry.hpp"
+#include "pos/estimation/seamless.hpp"
 #include "pos/estimation/sins_dr.hpp"
+#include "pos/estimation/uwb_imu.hpp"
 #include "pos/estimation/wheel_reckoning.hpp"
 
 namespace pos::estimation {
@@ -29,6 +31,10 @@ struct Make {
   std::unique_ptr<Estimator> operator()(const SinsDrConfig& c) const {
     return std::make_unique<SinsDr>(c, map);
   }
+  std::unique_ptr<Estimator> operator()(const UwbImuConfig& c) const { return makeUwbImu(c, map); }
+  std::unique_ptr<Estimator> operator()(const SeamlessConfig& c) const {
+    return std::make_unique<Seamless>(c, map);
+  }
   std::unique_ptr<Estimator> operator()(const MrptMclConfig&) const {
     throw ContractError("mrpt_mcl is made by pos::yardstick, not by pos::estimation");
   }
@@ -43,8 +49,8 @@ struct Make {
 }  // namespace
 
 std::string_view typeName(const EstimatorConfig& config) {
-  static constexpr std::array<std::string_view, 6> kNames{"dead_reckoning", "range_odometry", "mcl",
-                                                          "mrpt_mcl",       "dual_uwb",       "sins_dr"};
+  static constexpr std::array<std::string_view, 8> kNames{
+      "dead_reckoning", "range_odometry", "mcl", "mrpt_mcl", "dual_uwb", "sins_dr", "uwb_imu", "seamless"};
   static_assert(kNames.size() == std::variant_size_v<EstimatorConfig>);
   return kNames[config.index()];
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "pos/core/angle.hpp"
+#include "pos/core/wide.hpp"
 #include "pos/filters/fast_math.hpp"
 #include "pos/filters/lanes.hpp"
-#include "pos/filters/wide.hpp"
 
 namespace pos::estimation {
 namespace {

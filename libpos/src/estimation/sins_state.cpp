@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "pos/core/square.hpp"
-#include "pos/filters/wide.hpp"
+#include "pos/core/wide.hpp"
 #include "pos/ins/block_transition.hpp"
 
 namespace pos::estimation {

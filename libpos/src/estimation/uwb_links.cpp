@@ -50,7 +50,7 @@ bool RoadwayTest::inside(const Eigen::Vector2d& p_map) const {
 UwbLinks::UwbLinks(const DualUwbConfig& config, const map::TunnelMap& map)
     : config_(config), tags_(config.tags) {
   if (map.anchors.empty()) {
-    throw ConfigError(Complaint{.what = "dual_uwb needs anchors, and the map has none",
+    throw ConfigError(Complaint{.what = "ranges need anchors, and the map has none",
                                 .key = "map.anchors",
                                 .suggestion = "add the surveyed anchors to the map file"});
   }

@@ -112,7 +112,7 @@ CampaignSummary CampaignTotals::summary() const {
   if (baseline == nullptr) return summary;
   for (const EstimatorOverRuns& estimator : summary.estimators) {
     if (&estimator == baseline) continue;
-    for (const std::string& metric : pairedMetrics()) {
+    for (const std::string& metric : pairedMetrics(estimator)) {
       if (const auto pair = paired(estimator, *baseline, metric)) summary.pairs.push_back(*pair);
     }
   }

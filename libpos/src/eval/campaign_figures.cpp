@@ -111,10 +111,14 @@ AneesOverTime aneesOverTime(const std::vector<MomentOverRuns>& moments, int dof)
   return figures;
 }
 
-const std::vector<std::string>& pairedMetrics() {
-  static const std::vector<std::string> names{"errors.xy.rmse", "errors.xy.mean",    "errors.xy.p95",
-                                              "errors.xy.max",  "errors.along.rmse", "errors.cross.rmse",
-                                              "errors.z.rmse",  "errors.yaw.rmse"};
+std::vector<std::string> pairedMetrics(const EstimatorOverRuns& estimator) {
+  std::vector<std::string> names{"errors.xy.rmse", "errors.xy.mean",    "errors.xy.p95",
+                                 "errors.xy.max",  "errors.along.rmse", "errors.cross.rmse",
+                                 "errors.z.rmse",  "errors.yaw.rmse"};
+  for (const auto& [name, figure] : estimator.metrics) {
+    if (name.starts_with("windows.") && (name.ends_with(".mean") || name.ends_with(".max")))
+      names.push_back(name);
+  }
   return names;
 }
 

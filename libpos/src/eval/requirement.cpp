@@ -98,6 +98,40 @@ Metrics intervalMetrics(const IntervalFigures& f) {
   return all;
 }
 
+Metrics windowMetrics(const Evaluation& evaluation) {
+  Metrics all;
+  for (const WindowErrors& window : evaluation.windows) {
+    for (std::size_t i = 0; i < kWindowComponents.size(); ++i) {
+      const WindowError& error = window.errors[i];
+      const auto put = [&](const char* figure, double value) {
+        all["windows." + window.name + "." + std::string(kWindowComponents[i]) + "." + figure] =
+            error.count > 0 ? std::optional(value) : std::nullopt;
+      };
+      put("mean", error.mean);
+      put("rmse", error.rmse);
+      put("max", error.max);
+    }
+  }
+  return all;
+}
+
+Metrics switchingMetrics(const SwitchingFigures& f) {
+  Metrics all;
+  all["switching.switches"] = static_cast<double>(f.switches.size());
+  all["switching.failed"] = static_cast<double>(f.failed());
+  all["switching.mean_s"] = f.meanDelay();
+  all["switching.max_s"] = f.maxDelay();
+  all["switching.to_better_mean_s"] = f.meanDelayToBetter();
+  all["switching.to_better_max_s"] = f.maxDelayToBetter();
+  for (std::size_t i = 0; i < f.switches.size(); ++i) {
+    const std::string stem = "switching." + std::to_string(i + 1) + ".";
+    all[stem + "delay_s"] = f.switches[i].delay();
+    all[stem + "to_better_s"] = f.switches[i].delayToBetter();
+    all[stem + "wait_s"] = f.switches[i].wait();
+  }
+  return all;
+}
+
 std::string nearest(std::string_view wanted, const std::vector<std::string>& candidates) {
   const auto best = std::min_element(
       candidates.begin(), candidates.end(),
@@ -239,6 +273,8 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
   all.merge(verdictMetrics(estimator.verdicts));
   all["coverage"] = evaluation ? std::optional(evaluation->association.coverage) : std::nullopt;
   if (estimator.intervals) all.merge(intervalMetrics(*estimator.intervals));
+  if (evaluation) all.merge(windowMetrics(*evaluation));
+  if (estimator.switching) all.merge(switchingMetrics(*estimator.switching));
   const bool timed = estimator.compute.count() > 0;
   const auto put = [&](const char* key, double value) {
     all[std::string("compute.") + key] = timed ? std::optional(value) : std::nullopt;
@@ -250,7 +286,9 @@ std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& est
 }
 
 bool isOfASensor(const std::string& text) {
-  return text.find("nis_") != std::string::npos || text.find("sensors.") != std::string::npos;
+  constexpr std::array kKnownLater{"nis_", "sensors.", "windows.", "switching."};
+  return std::any_of(kKnownLater.begin(), kKnownLater.end(),
+                     [&](const char* part) { return text.find(part) != std::string::npos; });
 }
 
 Requirement parseRequirement(const std::string& text, const std::vector<NamedMetrics>& estimators) {

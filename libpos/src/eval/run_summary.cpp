@@ -134,6 +134,7 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
     summary.intervals =
         intervalFigures(*record.intervals, *options.interval_scene, truth, options.association);
   }
+  if (record.switching) summary.switching = record.switching->finish(options.boundaries);
   if (truth == nullptr || truth->poses.empty()) return summary;
   const Matches matches = associate(record.estimates, *truth, options.association);
   const Alignment shift = alignment(matches.pairs, options.alignment, *truth);
@@ -143,6 +144,7 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   Evaluation e = evaluation(matches, errors, shift);
   e.consistency.truth_sigma = options.truth_sigma;
   e.relative = relativeErrors(errors, options.relative);
+  e.windows = windowErrors(errors, options.windows);
   e.xy = errorPlot(errors, Component::Xy, start, options.plot_points);
   e.along = errorPlot(errors, Component::Along, start, options.plot_points);
   e.cross = errorPlot(errors, Component::Cross, start, options.plot_points);

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "pos/core/error.hpp"
+#include "pos/core/wide.hpp"
 #include "pos/filters/fast_math.hpp"
 #include "pos/filters/lanes.hpp"
-#include "pos/filters/wide.hpp"
 
 namespace pos::filters {
 namespace {

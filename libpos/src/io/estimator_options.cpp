@@ -1,6 +1,8 @@
 #include "pos/io/estimator_options.hpp"
 
+#include "pos/io/seamless_options.hpp"
 #include "pos/io/sins_options.hpp"
+#include "pos/io/uwb_imu_options.hpp"
 
 #include <array>
 
@@ -255,8 +257,10 @@ OptionTable<EstimatorEntry> estimatorOptions() {
       .alternative("mcl", config, mclOptions(), "Particle filter on the anchors and the grid of the map.")
       .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.")
       .alternative("dual_uwb", config, dualUwbOptions(), "Two or more radio tags: pose, speed and yaw rate.")
-      .alternative("sins_dr", config, sinsDrOptions(),
-                   "Inertial navigation and wheels, with slip isolation.");
+      .alternative("sins_dr", config, sinsDrOptions(), "Inertial navigation and wheels, with slip isolation.")
+      .alternative("uwb_imu", config, uwbImuOptions(), "One radio tag and an inertial unit, tightly coupled.")
+      .alternative("seamless", config, seamlessOptions(),
+                   "Satellites on the surface, radio under ground, one inertial unit.");
 }
 
 }  // namespace pos::io

@@ -49,6 +49,17 @@ OptionTable<SensorConfig> sensorOptions() {
               "Its stamps are this late; they are moved back by it.");
 }
 
+OptionTable<WindowConfig> windowOptions() {
+  return OptionTable<WindowConfig>("windows", "A stretch of the run whose errors are also given alone.")
+      .text("name", &WindowConfig::name,
+            "Name of its figures: letters, digits, _ and - only. Windows of one name are taken together.")
+      .required()
+      .number("from_s", &WindowConfig::from, between(0, 1e7), "Its beginning, from the start of the truth.")
+      .number("to_s", &WindowConfig::to, between(0, 1e7), "Its end.")
+      .required()
+      .check(requireWindow);
+}
+
 OptionTable<EvaluationConfig> evaluationOptions() {
   return OptionTable<EvaluationConfig>("evaluation", "How estimates are compared with the truth.")
       .choice("align", &EvaluationConfig::align,
@@ -65,7 +76,9 @@ OptionTable<EvaluationConfig> evaluationOptions() {
       .number("truth_time_offset_s", &EvaluationConfig::truth_time_offset, anything(),
               "Added to the stamps of the truth.")
       .number("truth_sigma_m", &EvaluationConfig::truth_sigma, between(0, 1000),
-              "How good the truth is, per axis; added to the claimed covariance for the NEES only.");
+              "How good the truth is, per axis; added to the claimed covariance for the NEES only.")
+      .list("windows", &EvaluationConfig::windows, windowOptions(),
+            "Stretches of the run whose errors are also given alone.");
 }
 
 OptionTable<LogSource> logOptions() {

@@ -93,6 +93,13 @@ void requireTruthFile(const TruthSource& truth) {
   }
 }
 
+void requireWindow(const WindowConfig& window) {
+  if (!fitsFileName(window.name))
+    refuse("the name does not fit a figure", "name", window.name, "letters, digits, _ and - only");
+  if (window.to <= window.from)
+    refuse("the window ends before it begins", "to_s", std::to_string(window.to), "more than from_s");
+}
+
 void requireOrder(const FaultConfig& faults) {
   if (faults.range_outlier_min > faults.range_outlier_max) {
     refuse("the smallest outlier exceeds the largest", "range_outlier_min_m",

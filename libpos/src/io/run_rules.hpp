@@ -7,6 +7,7 @@ namespace pos::io {
 
 void requireTruthFile(const TruthSource& truth);
 void requireOrder(const FaultConfig& faults);
+void requireWindow(const WindowConfig& window);
 /// Names that occur once, one input, a baseline that is there; nothing of what the inner tables check.
 void requireWhole(const RunConfig& config);
 

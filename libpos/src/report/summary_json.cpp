@@ -191,7 +191,39 @@ Json intervalsJson(const eval::IntervalFigures& f) {
           {"passages_refused", f.record.passages_refused}};
 }
 
-Json estimatorJson(const eval::EstimatorSummary& estimator) {
+Json windowsJson(const std::vector<eval::WindowErrors>& windows) {
+  Json all = Json::object();
+  for (const eval::WindowErrors& window : windows) {
+    Json components = Json::object();
+    for (std::size_t i = 0; i < eval::kWindowComponents.size(); ++i) {
+      const eval::WindowError& error = window.errors[i];
+      Json figures = {{"mean", number(error.mean)}, {"rmse", number(error.rmse)}, {"max", number(error.max)}};
+      figures["count"] = error.count;
+      components[std::string(eval::kWindowComponents[i])] = error.count > 0 ? figures : Json(nullptr);
+    }
+    all[window.name] = components;
+  }
+  return all;
+}
+
+Json switchingJson(const eval::SwitchingFigures& f, Stamp start) {
+  Json list = Json::array();
+  for (const eval::ModeSwitch& each : f.switches) {
+    list.push_back({{"change", each.change},
+                    {"started_s", seconds(each.started - start)},
+                    {"wait_s", number(each.wait())},
+                    {"delay_s", number(each.delay())},
+                    {"to_better_s", number(each.delayToBetter())}});
+  }
+  return {{"failed", f.failed()},
+          {"mean_s", number(f.meanDelay())},
+          {"max_s", number(f.maxDelay())},
+          {"to_better_mean_s", number(f.meanDelayToBetter())},
+          {"to_better_max_s", number(f.maxDelayToBetter())},
+          {"switches", list}};
+}
+
+Json estimatorJson(const eval::EstimatorSummary& estimator, Stamp start) {
   Json e = {{"type", estimator.type}, {"estimates", estimator.estimates}};
   const auto& evaluation = estimator.evaluation;
   e["errors"] = evaluation ? errorsJson(*evaluation) : Json(nullptr);
@@ -205,6 +237,8 @@ Json estimatorJson(const eval::EstimatorSummary& estimator) {
   e["residuals"] = residualsJson(estimator.residuals);
   e["diagnostics"] = diagnosticsJson(estimator.diagnostics);
   if (estimator.intervals) e["intervals"] = intervalsJson(*estimator.intervals);
+  if (evaluation && !evaluation->windows.empty()) e["windows"] = windowsJson(evaluation->windows);
+  if (estimator.switching) e["switching"] = switchingJson(*estimator.switching, start);
   return e;
 }
 
@@ -231,7 +265,7 @@ Json runJson(const eval::RunSummary& run) {
 Json wholeJson(const eval::RunSummary& run) {
   Json estimators = Json::object();
   for (const eval::EstimatorSummary& estimator : run.estimators) {
-    estimators[estimator.name] = estimatorJson(estimator);
+    estimators[estimator.name] = estimatorJson(estimator, run.start);
   }
   return {{"format", "pos.summary/1"}, {"run", runJson(run)}, {"estimators", std::move(estimators)}};
 }

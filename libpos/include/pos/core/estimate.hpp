@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pos/core/manifold.hpp"
@@ -19,6 +20,17 @@ struct PlanarTwist {
   Matrix<3, 3> covariance = Matrix<3, 3>::Zero();
 };
 
+/// One of the models an estimator chooses between, as it stands at an estimate's stamp.
+struct ModeState {
+  std::string_view name = {};  ///< points at a string literal
+  double probability = 0.0;
+  bool usable = false;
+  /// Since when it is: the stamp of its first good measurement, or the moment the missing one was due.
+  Stamp since = {};
+  std::optional<Stamp> last_applied = {};  ///< stamp of its last measurement that was taken
+  double sigma = 0.0;                      ///< m per axis, how good a place its latest readings give
+};
+
 /// A pose with its covariance. Tangent order [x y z (map axes), rotation (body axes)], m and rad.
 /// A planar estimator fills x, y, yaw and leaves the rows of z, roll and pitch at zero.
 struct Estimate {
@@ -27,6 +39,8 @@ struct Estimate {
   Matrix<6, 6> covariance = Matrix<6, 6>::Zero();
   /// Where the estimator knows how fast it moves.
   std::optional<PlanarTwist> twist = {};
+  /// Where the estimator chooses between models, in a fixed order.
+  std::vector<ModeState> modes = {};
 
   /// Planar part [x, y, yaw]. For a level body the yaw row is the tangent's last.
   Matrix<3, 3> planarCovariance() const;

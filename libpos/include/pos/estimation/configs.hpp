@@ -12,18 +12,13 @@
 #include "pos/core/measurement.hpp"
 #include "pos/core/pose2.hpp"
 #include "pos/estimation/calibration_state.hpp"
+#include "pos/estimation/seamless_configs.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
+#include "pos/estimation/tag_mount.hpp"
+#include "pos/estimation/uwb_imu_config.hpp"
 
 namespace pos::estimation {
-
-/// Where a tag sits on the body (m, FLU; origin = the body frame of the log).
-struct TagMount {
-  TagId id = 0;
-  Eigen::Vector3d p_body = Eigen::Vector3d::Zero();
-
-  bool operator==(const TagMount&) const = default;
-};
 
 /// Planar odometry noise, grown with the motion (a density per metre turned) and with time.
 struct OdometryNoise {
@@ -268,7 +263,7 @@ SightConfig validated(SightConfig config);
 DualUwbConfig validated(DualUwbConfig config);
 
 using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig,
-                                     DualUwbConfig, SinsDrConfig>;
+                                     DualUwbConfig, SinsDrConfig, UwbImuConfig, SeamlessConfig>;
 EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation

@@ -112,8 +112,8 @@ struct CampaignSummary {
   const EstimatorOverRuns* find(const std::string& estimator) const;
 };
 
-/// Metrics that pairs are made of, where they have values.
-const std::vector<std::string>& pairedMetrics();
+/// Metrics that pairs are made of: errors of the whole run, and means and largest errors of its windows.
+std::vector<std::string> pairedMetrics(const EstimatorOverRuns& estimator);
 
 /// Adds up runs in order. Memory: 8 bytes a run and metric, and the sums of the grid.
 class CampaignTotals {

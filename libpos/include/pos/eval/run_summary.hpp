@@ -16,8 +16,10 @@
 #include "pos/eval/relative_error.hpp"
 #include "pos/eval/residuals.hpp"
 #include "pos/eval/statistics.hpp"
+#include "pos/eval/switching.hpp"
 #include "pos/eval/time_grid.hpp"
 #include "pos/eval/verdict_counts.hpp"
+#include "pos/eval/windows.hpp"
 #include "pos/map/tunnel_map.hpp"
 
 namespace pos::eval {
@@ -54,10 +56,11 @@ struct Evaluation {
   std::vector<CdfPoint> cdf_xy;
   std::vector<RelativeError> relative;
   Consistency consistency;
-  PlotSeries xy;     ///< m
-  PlotSeries along;  ///< m, with sigma
-  PlotSeries cross;  ///< m, with sigma
-  PlotSeries yaw;    ///< rad, with sigma
+  std::vector<WindowErrors> windows = {};  ///< of the options
+  PlotSeries xy;                           ///< m
+  PlotSeries along;                        ///< m, with sigma
+  PlotSeries cross;                        ///< m, with sigma
+  PlotSeries yaw;                          ///< rad, with sigma
   PlotSeries nees_xy;
 
   /// Null where the truth does not allow it or nothing matched.
@@ -76,7 +79,8 @@ struct EstimatorSummary {
   std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
   std::vector<GridCell> cells = {};  ///< on the grid of the options; empty without one or without truth
   std::vector<PathPoint> path;
-  std::optional<IntervalFigures> intervals = {};  ///< where intervals are evaluated
+  std::optional<IntervalFigures> intervals = {};   ///< where intervals are evaluated
+  std::optional<SwitchingFigures> switching = {};  ///< of an estimator that chooses between models
 
   /// xy rmse, or nothing without truth or matches.
   std::optional<double> rmseXy() const;
@@ -117,6 +121,8 @@ struct EvaluationOptions {
   std::size_t plot_points = 2000;  ///< most points of one drawn series
   std::optional<TimeGrid> grid;    ///< also look at the errors at these moments
   std::shared_ptr<const IntervalScene> interval_scene = {};  ///< needed where intervals were recorded
+  std::vector<TimeWindow> windows = {};                      ///< looked at one by one
+  std::vector<Stamp> boundaries = {};  ///< upward: where the truth changed zone, for switching
 };
 
 /// What a run recorded of one estimator.
@@ -131,6 +137,7 @@ struct EstimatorRecord {
   std::map<std::string, std::uint64_t> events = {};  ///< how often each happened
   std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
   std::optional<IntervalRecord> intervals = {};      ///< where intervals are evaluated
+  std::optional<SwitchingWatch> switching = {};      ///< of an estimator that chooses between models
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'

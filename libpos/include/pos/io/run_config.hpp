@@ -73,6 +73,15 @@ struct SensorConfig {
   bool operator==(const SensorConfig&) const = default;
 };
 
+/// A stretch of the run whose errors are also given by themselves; windows of one name are taken together.
+struct WindowConfig {
+  std::string name;
+  double from = 0.0;  ///< s since the start of the truth, or of the log without one
+  double to = 0.0;    ///< s
+
+  bool operator==(const WindowConfig&) const = default;
+};
+
 struct EvaluationConfig {
   enum class Align { None, Origin, Se2, Se3, PosYaw };
   Align align = Align::None;
@@ -80,6 +89,7 @@ struct EvaluationConfig {
   double max_gap = 1.0;            ///< s, truth is not interpolated over a longer gap
   double truth_time_offset = 0.0;  ///< s, added to the stamps of the truth
   double truth_sigma = 0.0;        ///< m per axis, how good the truth is; enters the NEES only
+  std::vector<WindowConfig> windows = {};
 
   bool operator==(const EvaluationConfig&) const = default;
 };
