@@ -12,7 +12,8 @@
 
 namespace pos::lidar {
 
-/// A point of a wall and the unit normal of the wall there, towards the scanner.
+/// A point of a wall and the unit normal of the wall there, towards the scanner. The point lies on the line
+/// through its neighbours.
 struct WallPoint {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();  ///< m, scan's frame
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();
@@ -32,13 +33,15 @@ struct WallConfig {
 std::vector<WallPoint> wallPoints(const Scan2D& scan, const WallConfig& config = {});
 
 struct IcpConfig {
-  double keep = 0.75;          ///< share of the pairs that stays, those with the smallest residuals
+  double keep = 0.75;  ///< share of the pairs that stays, those with the smallest residuals; of either
+                       ///< direction by itself
   double pair_distance = 2.0;  ///< m, farther points are no pair
+  double pair_along = 0.5;     ///< m, nor is a point so far past the end of the wall that was seen
   double pair_angle = 0.5;     ///< rad, nor are points whose normals differ by more
   int iterations_max = 50;
-  double step_small = 1e-5;  ///< m and rad
+  double step_small = 1e-7;  ///< m and rad, where the iteration ends
   int pairs_min = 20;
-  double sigma = 0.010;      ///< m, of a point across its wall
+  double sigma = 0.010;      ///< m, of a range
   double weak_share = 0.02;  ///< a direction is weak when it has less than this share of the pairs' worth
 };
 
@@ -57,7 +60,8 @@ struct IcpResult {
   double rms = 0.0;  ///< m, of the kept pairs' distances from their walls
   /// Of [x, y, yaw] per unit variance of a point (sum of J'J); the yaw turns about the second scan's origin.
   Matrix<3, 3> information = Matrix<3, 3>::Zero();
-  /// sigma^2 / information; a direction not held at all has pair_distance for its standard deviation.
+  /// Under `sigma` of noise along the beams of both sweeps; a direction not held at all has pair_distance for
+  /// its standard deviation.
   Matrix<3, 3> covariance = Matrix<3, 3>::Identity();
   /// Of the translation alone, the turn being unknown too, as shares of the kept pairs: 0.5 and 0.5 for walls
   /// seen equally from all sides, 0 across nothing. Smaller one first.
