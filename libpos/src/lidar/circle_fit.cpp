@@ -17,32 +17,49 @@ constexpr double kLeastShare = 0.5;
 /// Weights follow the centre so often, then they stay: they could go to and fro for ever.
 constexpr int kReweightings = 5;
 
-/// A point's part in the normal equations about centre c.
-struct Row {
-  double e = 0.0;  // m
-  Eigen::Vector2d J = Eigen::Vector2d::Zero();
-  double weight = 1.0;    // 1 / m^2
-  double variance = 1.0;  // m^2, of e under the beam's noise
+/// Weight of a point, and what its noise does with that weight: w and w^2 v, v = variance of its e.
+struct Weight {
+  double w = 1.0;          // 1 / m^2
+  double squared_v = 1.0;  // 1 / m^2
 };
 
-/// Residual about `centre`, weight as seen from `weights_at`.
-Row rowOf(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, const Eigen::Vector2d& weights_at,
-          const CircleFitConfig& config) {
-  const CircleResidual at = circleResidual(p, weights_at, config.radius);
-  const double range_squared = std::max(p.squaredNorm(), 1e-12);
-  const double along = std::min(square(at.J.dot(p)) / range_squared, 1.0);  // cos^2 of incidence
-  const double variance =
-      square(config.sigma_range) * along + range_squared * square(config.sigma_angle) * (1.0 - along);
-  const double floored = std::max(variance, square(kLeastShare * config.sigma_range));
-  const CircleResidual here = circleResidual(p, centre, config.radius);
-  Row row{.e = here.e, .J = here.J, .weight = 1.0 / square(config.sigma_range), .variance = variance};
-  if (config.weights != ArcWeights::Even) row.weight = 1.0 / floored;
-  if (config.weights == ArcWeights::Huber) {
-    const double whitened = std::abs(at.e) / std::sqrt(floored);
-    if (whitened > kHuber) row.weight *= kHuber / whitened;
+/// v = sigma_range^2 cos^2 + (range sigma_angle)^2 sin^2 of the beam's incidence, without dividing more than
+/// once: num = v range^2.
+class Weigher {
+ public:
+  explicit Weigher(const CircleFitConfig& config)
+      : weights_(config.weights),
+        range_variance_(square(config.sigma_range)),
+        angle_variance_(square(config.sigma_angle)),
+        least_(square(kLeastShare) * range_variance_) {}
+
+  Weight of(const Eigen::Vector2d& p, const CircleResidual& at) const {
+    const double range_squared = p.squaredNorm();
+    const double along_squared = square(at.J.dot(p));  // cos^2 range^2
+    const double num =
+        range_variance_ * along_squared + angle_variance_ * range_squared * (range_squared - along_squared);
+    if (weights_ == ArcWeights::Even) {
+      const double w = 1.0 / range_variance_;
+      return {.w = w, .squared_v = w * w * num / range_squared};
+    }
+    const double least = least_ * range_squared;
+    const bool floored = num < least;
+    const double w = range_squared / (floored ? least : num);
+    Weight weight{.w = w, .squared_v = floored ? w * (num / least) : w};
+    if (weights_ == ArcWeights::Huber && at.e * at.e * w > kHuber * kHuber) {
+      const double less = kHuber / (std::abs(at.e) * std::sqrt(w));
+      weight.w *= less;
+      weight.squared_v *= less * less;
+    }
+    return weight;
   }
-  return row;
-}
+
+ private:
+  ArcWeights weights_;
+  double range_variance_;  // m^2
+  double angle_variance_;  // rad^2
+  double least_;           // m^2
+};
 
 /// A = J'WJ, g = J'We, B = J'WVWJ
 struct Normal {
@@ -50,18 +67,34 @@ struct Normal {
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
   Eigen::Matrix2d B = Eigen::Matrix2d::Zero();
   double squares = 0.0;
+
+  void add(const CircleResidual& at, const Weight& weight) {
+    const Eigen::Matrix2d outer = at.J * at.J.transpose();
+    A += weight.w * outer;
+    B += weight.squared_v * outer;
+    g += weight.w * at.e * at.J;
+    squares += at.e * at.e;
+  }
 };
 
 Normal normalEquations(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& centre,
-                       const Eigen::Vector2d& weights_at, const CircleFitConfig& config) {
+                       const CircleFitConfig& config, const Weigher& weigher) {
   Normal normal;
   for (const Eigen::Vector2d& p : points) {
-    const Row row = rowOf(p, centre, weights_at, config);
-    const Eigen::Vector2d weighted = row.weight * row.J;
-    normal.A.noalias() += weighted * row.J.transpose();
-    normal.B.noalias() += row.variance * weighted * weighted.transpose();
-    normal.g += row.e * weighted;
-    normal.squares += row.e * row.e;
+    const CircleResidual at = circleResidual(p, centre, config.radius);
+    normal.add(at, weigher.of(p, at));
+  }
+  return normal;
+}
+
+/// The same with the weights that the points have as seen from `weights_at`.
+Normal normalEquations(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& centre,
+                       const CircleFitConfig& config, const Weigher& weigher,
+                       const Eigen::Vector2d& weights_at) {
+  Normal normal;
+  for (const Eigen::Vector2d& p : points) {
+    normal.add(circleResidual(p, centre, config.radius),
+               weigher.of(p, circleResidual(p, weights_at, config.radius)));
   }
   return normal;
 }
@@ -85,32 +118,28 @@ Eigen::Vector2d startOf(std::span<const Eigen::Vector2d> points, double radius) 
 
 }  // namespace
 
-CircleResidual circleResidual(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, double radius) {
-  const Eigen::Vector2d away = p - centre;
-  const double distance = std::max(away.norm(), 1e-12);
-  return {.e = distance - radius, .J = -away / distance};
-}
-
 std::optional<CircleFit> fittedCircle(std::span<const Eigen::Vector2d> points,
                                       const CircleFitConfig& config) {
   if (points.size() < 2) return {};
+  const Weigher weigher(config);
   CircleFit fit{.centre = startOf(points, config.radius)};
   Eigen::Vector2d weights_at = fit.centre;
-  Normal normal = normalEquations(points, fit.centre, weights_at, config);
-  bool settled = false;
-  while (!settled) {
-    if (fit.iterations == config.iterations_max || !(conditionOf(normal.A) > config.condition_min)) return {};
-    const Eigen::Vector2d step = -normal.A.llt().solve(normal.g);
+  for (; fit.iterations < config.iterations_max; ++fit.iterations) {
+    const bool follow = fit.iterations < kReweightings;
+    if (follow) weights_at = fit.centre;
+    const Normal normal = follow ? normalEquations(points, fit.centre, config, weigher)
+                                 : normalEquations(points, fit.centre, config, weigher, weights_at);
+    if (!(conditionOf(normal.A) > config.condition_min)) return {};
+    const auto factor = normal.A.llt();
+    const Eigen::Vector2d step = -factor.solve(normal.g);
     fit.centre += step;
-    settled = step.squaredNorm() < square(config.step_small);
-    if (++fit.iterations < kReweightings) weights_at = fit.centre;
-    normal = normalEquations(points, fit.centre, weights_at, config);
+    if (!(step.squaredNorm() < square(config.step_small))) continue;
+    const Eigen::Matrix2d inverse = factor.solve(Eigen::Matrix2d::Identity());
+    fit.covariance = inverse * normal.B * inverse;
+    fit.rms = std::sqrt(normal.squares / static_cast<double>(points.size()));
+    return fit;
   }
-  if (!(conditionOf(normal.A) > config.condition_min)) return {};
-  const Eigen::Matrix2d inverse = normal.A.llt().solve(Eigen::Matrix2d::Identity());
-  fit.covariance = inverse * normal.B * inverse;
-  fit.rms = std::sqrt(normal.squares / static_cast<double>(points.size()));
-  return fit;
+  return {};
 }
 
 }  // namespace pos::lidar

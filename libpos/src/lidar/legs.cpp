@@ -56,7 +56,7 @@ LegFinder::LegFinder(const LegConfig& config)
            .weights = config.weights},
       lean_(std::cos(config.tilt_bearing), std::sin(config.tilt_bearing)) {}
 
-LegSweep LegFinder::find(const Scan2D& scan) {
+LegSweep LegFinder::find(const Scan2D& scan, const AlongFace& part) {
   counts_ = {};
   legs_.clear();
   aim(scan);
@@ -64,7 +64,7 @@ LegSweep LegFinder::find(const Scan2D& scan) {
   for (std::size_t begin = 0; begin < returns_.size();) {
     const std::size_t end = clusterEnd(begin);
     ++counts_.clusters;
-    judge(begin, end);
+    judge(begin, end, part);
     begin = end;
   }
   LegView view = counts_.returns > 0 ? LegView::NoLegs : LegView::NoReturns;
@@ -134,10 +134,15 @@ bool LegFinder::bulges(std::size_t begin, std::size_t end) const {
   return middle < ends;
 }
 
-void LegFinder::judge(std::size_t begin, std::size_t end) {
+void LegFinder::judge(std::size_t begin, std::size_t end, const AlongFace& part) {
   const std::size_t count = end - begin;
   if (count < static_cast<std::size_t>(config_.points_min)) {
     ++counts_.few_points;
+    return;
+  }
+  const Return& middle = returns_[begin + count / 2];
+  if (!(middle.p.x() >= part.from && middle.p.x() <= part.to)) {
+    ++counts_.outside;
     return;
   }
   const double width = (returns_[end - 1].p - returns_[begin].p).norm() / config_.diameter;
@@ -145,7 +150,6 @@ void LegFinder::judge(std::size_t begin, std::size_t end) {
     ++counts_.bad_width;
     return;
   }
-  const Return& middle = returns_[begin + count / 2];
   if (!onRow(middle.p.y() * (1.0 + 0.5 * config_.diameter / middle.range))) {
     ++counts_.off_row;
     return;

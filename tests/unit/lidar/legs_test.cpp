@@ -18,7 +18,8 @@ using scene::rowSweeps;
 using scene::scanner;
 
 int judged(const LegCounts& counts) {
-  return counts.few_points + counts.bad_width + counts.bad_arc + counts.off_row + counts.bad_fit;
+  return counts.few_points + counts.outside + counts.bad_width + counts.bad_arc + counts.off_row +
+         counts.bad_fit;
 }
 
 /// The support whose true place is nearest to a detection.
@@ -132,6 +133,22 @@ TEST(LegFinder, CalibrationTakesTheScannersErrorsOut) {
   for (const LegDetection& leg : sweep.legs) {
     EXPECT_LT((leg.centre - legAt(supportOf(leg, 100.0), 100.0)).norm(), 1e-5);
   }
+}
+
+TEST(LegFinder, PartOfTheFaceIsSearchedAsIfItWereAll) {
+  const auto scans = rowSweeps(scanner(), Cut{100.0, 0.0, 0.0});
+  LegFinder finder({});
+  const LegSweep all = finder.find(scans.at(0));
+  std::vector<Eigen::Vector2d> ahead;
+  for (const LegDetection& leg : all.legs) {
+    if (leg.centre.x() > 6.0 && leg.centre.x() < 10.5) ahead.push_back(leg.centre);
+  }
+  const LegSweep part = finder.find(scans.at(0), {.from = 6.0, .to = 10.3});
+  ASSERT_EQ(part.legs.size(), ahead.size());
+  EXPECT_EQ(part.legs.size(), 3U);
+  for (std::size_t i = 0; i < ahead.size(); ++i) EXPECT_EQ(part.legs[i].centre, ahead[i]);
+  EXPECT_GE(part.counts.outside, 12);
+  EXPECT_EQ(part.counts.clusters, judged(part.counts) + 3);
 }
 
 TEST(LegFinder, LegsAreToldApartWhereTheirRangesAreEqual) {

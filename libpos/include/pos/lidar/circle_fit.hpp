@@ -2,6 +2,7 @@
 /// A circle of known radius through points of its near side (Zheng et al. 2021, section 3; spec B, B5).
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -35,7 +36,11 @@ struct CircleResidual {
   double e = 0.0;  ///< m
   Eigen::Vector2d J = Eigen::Vector2d::Zero();
 };
-CircleResidual circleResidual(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, double radius);
+inline CircleResidual circleResidual(const Eigen::Vector2d& p, const Eigen::Vector2d& centre, double radius) {
+  const Eigen::Vector2d away = p - centre;
+  const double distance = std::max(away.norm(), 1e-12);
+  return {.e = distance - radius, .J = away / -distance};
+}
 
 /// Gauss-Newton from the nearest point + r along the mean bearing. Points in the scanner's frame (m), the
 /// scanner at the origin. Nothing when it does not converge, or the arc is too short for a direction to be

@@ -35,7 +35,8 @@ struct LegConfig {
   double rms_max = 3.0;            ///< of a fit, in sigma_range
   double tilt = 0.0;               ///< rad, of the legs against the scan plane's normal: 0 fits plain circles
   double tilt_bearing = 1.5707963267948966;  ///< rad, l frame, the way the upper or lower end leans
-  ArcWeights weights = ArcWeights::Huber;
+  ArcWeights weights =
+      ArcWeights::Noise;                ///< Huber where specks of dust hang before the legs; twice the time
   ScannerCalibration calibration = {};  ///< taken out of every beam; the default leaves it raw
 };
 
@@ -50,12 +51,13 @@ struct LegDetection {
 };
 
 /// Where every beam and every cluster of a sweep went.
-/// clusters = few_points + bad_width + bad_arc + off_row + bad_fit + the legs found.
+/// clusters = few_points + outside + bad_width + bad_arc + off_row + bad_fit + the legs found.
 struct LegCounts {
   int beams = 0;
   int returns = 0;  ///< beams that came back from within range
   int clusters = 0;
   int few_points = 0;  ///< fewer points than points_min
+  int outside = 0;     ///< not within the part of the face that was asked for
   int bad_width = 0;
   int bad_arc = 0;  ///< does not bulge towards the scanner, or a straight edge fits better
   int off_row = 0;  ///< not `lateral` to the left
@@ -65,6 +67,12 @@ struct LegCounts {
 /// Legs: at least one was found. NoReturns: no beam came back, or the sweep is empty. NoLegs: something came
 /// back, and no leg was in it.
 enum class LegView { Legs, NoReturns, NoLegs };
+
+/// A part of the face, m along x_l. All of it by default.
+struct AlongFace {
+  double from = -1e9;
+  double to = 1e9;
+};
 
 struct LegSweep {
   std::span<const LegDetection> legs = {};  ///< in the order of the beams; until the finder's next sweep
@@ -78,9 +86,9 @@ class LegFinder {
   /// Throws ConfigError.
   explicit LegFinder(const LegConfig& config);
 
-  /// O(beams). Any scan is answered: beams that are not finite, not above zero or at the range limit count as
-  /// no returns.
-  LegSweep find(const Scan2D& scan);
+  /// Legs whose nearest points lie within `part`: what is not needed costs no fit. O(beams). Any scan is
+  /// answered: beams that are not finite, not above zero or at the range limit count as no returns.
+  LegSweep find(const Scan2D& scan, const AlongFace& part = {});
 
  private:
   struct Return {
@@ -92,7 +100,7 @@ class LegFinder {
   void aim(const Scan2D& scan);
   void gather(const Scan2D& scan);
   std::size_t clusterEnd(std::size_t begin) const;
-  void judge(std::size_t begin, std::size_t end);
+  void judge(std::size_t begin, std::size_t end, const AlongFace& part);
   bool bulges(std::size_t begin, std::size_t end) const;
   bool onRow(double lateral) const;
 
