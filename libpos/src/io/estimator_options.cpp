@@ -1,5 +1,6 @@
 #include "pos/io/estimator_options.hpp"
 
+#include "pos/io/shearer_options.hpp"
 #include "pos/io/sins_options.hpp"
 
 #include <array>
@@ -255,8 +256,9 @@ OptionTable<EstimatorEntry> estimatorOptions() {
       .alternative("mcl", config, mclOptions(), "Particle filter on the anchors and the grid of the map.")
       .alternative("mrpt_mcl", config, mrptMclOptions(), "MRPT's own particle filter, for comparison.")
       .alternative("dual_uwb", config, dualUwbOptions(), "Two or more radio tags: pose, speed and yaw rate.")
-      .alternative("sins_dr", config, sinsDrOptions(),
-                   "Inertial navigation and wheels, with slip isolation.");
+      .alternative("sins_dr", config, sinsDrOptions(), "Inertial navigation and wheels, with slip isolation.")
+      .alternative("shearer", config, shearerOptions(),
+                   "A longwall shearer among the legs of the supports, and its dead reckoning.");
 }
 
 }  // namespace pos::io

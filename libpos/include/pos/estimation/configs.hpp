@@ -12,6 +12,7 @@
 #include "pos/core/measurement.hpp"
 #include "pos/core/pose2.hpp"
 #include "pos/estimation/calibration_state.hpp"
+#include "pos/estimation/shearer_configs.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
 
@@ -268,7 +269,7 @@ SightConfig validated(SightConfig config);
 DualUwbConfig validated(DualUwbConfig config);
 
 using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig,
-                                     DualUwbConfig, SinsDrConfig>;
+                                     DualUwbConfig, SinsDrConfig, ShearerConfig>;
 EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation
