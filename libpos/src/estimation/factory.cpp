@@ -9,6 +9,8 @@
 #include "pos/estimation/mcl.hpp"
 #include "pos/estimation/range_odometry.hpp"
 #include "pos/estimation/seamless.hpp"
+#include "pos/estimation/shearer.hpp"
+#include "pos/estimation/shearer_reckoning.hpp"
 #include "pos/estimation/sins_dr.hpp"
 #include "pos/estimation/uwb_imu.hpp"
 #include "pos/estimation/wheel_reckoning.hpp"
@@ -35,6 +37,10 @@ struct Make {
   std::unique_ptr<Estimator> operator()(const SeamlessConfig& c) const {
     return std::make_unique<Seamless>(c, map);
   }
+  std::unique_ptr<Estimator> operator()(const ShearerConfig& c) const {
+    if (c.variant != ShearerConfig::Variant::Lidar) return std::make_unique<ShearerReckoning>(c, map);
+    return std::make_unique<Shearer>(c, map);
+  }
   std::unique_ptr<Estimator> operator()(const MrptMclConfig&) const {
     throw ContractError("mrpt_mcl is made by pos::yardstick, not by pos::estimation");
   }
@@ -49,8 +55,9 @@ struct Make {
 }  // namespace
 
 std::string_view typeName(const EstimatorConfig& config) {
-  static constexpr std::array<std::string_view, 8> kNames{
-      "dead_reckoning", "range_odometry", "mcl", "mrpt_mcl", "dual_uwb", "sins_dr", "uwb_imu", "seamless"};
+  static constexpr std::array<std::string_view, 9> kNames{"dead_reckoning", "range_odometry", "mcl",
+                                                          "mrpt_mcl",       "dual_uwb",       "sins_dr",
+                                                          "uwb_imu",        "seamless",       "shearer"};
   static_assert(kNames.size() == std::variant_size_v<EstimatorConfig>);
   return kNames[config.index()];
 }

@@ -57,6 +57,7 @@ EarthPoint Earth::at(const Eigen::Vector3d& coordinates) const {
   EarthPoint point;
   if (flat_) {
     point.gravity = gravity_;
+    point.omega_ie = rate_;
     return point;
   }
   const double latitude = coordinates.y();

@@ -1,6 +1,7 @@
 #include "pos/io/estimator_options.hpp"
 
 #include "pos/io/seamless_options.hpp"
+#include "pos/io/shearer_options.hpp"
 #include "pos/io/sins_options.hpp"
 #include "pos/io/uwb_imu_options.hpp"
 
@@ -260,7 +261,9 @@ OptionTable<EstimatorEntry> estimatorOptions() {
       .alternative("sins_dr", config, sinsDrOptions(), "Inertial navigation and wheels, with slip isolation.")
       .alternative("uwb_imu", config, uwbImuOptions(), "One radio tag and an inertial unit, tightly coupled.")
       .alternative("seamless", config, seamlessOptions(),
-                   "Satellites on the surface, radio under ground, one inertial unit.");
+                   "Satellites on the surface, radio under ground, one inertial unit.")
+      .alternative("shearer", config, shearerOptions(),
+                   "A longwall shearer among the legs of the supports, and its dead reckoning.");
 }
 
 }  // namespace pos::io

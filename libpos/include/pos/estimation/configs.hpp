@@ -13,6 +13,7 @@
 #include "pos/core/pose2.hpp"
 #include "pos/estimation/calibration_state.hpp"
 #include "pos/estimation/seamless_configs.hpp"
+#include "pos/estimation/shearer_configs.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
 #include "pos/estimation/tag_mount.hpp"
@@ -262,8 +263,9 @@ MrptMclConfig validated(MrptMclConfig config);
 SightConfig validated(SightConfig config);
 DualUwbConfig validated(DualUwbConfig config);
 
-using EstimatorConfig = std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig,
-                                     DualUwbConfig, SinsDrConfig, UwbImuConfig, SeamlessConfig>;
+using EstimatorConfig =
+    std::variant<DeadReckoningConfig, RangeOdometryConfig, MclConfig, MrptMclConfig, DualUwbConfig,
+                 SinsDrConfig, UwbImuConfig, SeamlessConfig, ShearerConfig>;
 EstimatorConfig validated(EstimatorConfig config);
 
 }  // namespace pos::estimation

@@ -11,7 +11,7 @@
 namespace pos::estimation {
 
 /// The `type:` of a configuration: "dead_reckoning", "range_odometry", "mcl", "mrpt_mcl", "dual_uwb",
-/// "sins_dr", "seamless".
+/// "sins_dr", "uwb_imu", "seamless", "shearer".
 std::string_view typeName(const EstimatorConfig& config);
 
 /// A ready estimator. Throws ConfigError when the map lacks what it needs (anchors, grid), and ContractError

@@ -129,7 +129,7 @@ class BlockTransition {
 /// The first fifteen rows (those of `ErrorRow`) of an inertial error model over dt (s), in the tangent "truth
 /// from estimate": phi and the biases as they are, v and p with the other sign. First order throughout,
 /// second order where neither factor holds the Earth's rate or curvature; what is left out is below 2e-4 dt
-/// of the first order. On a flat Earth the Earth's blocks are absent.
+/// of the first order. Blocks of an Earth that does not turn, or is flat, are absent.
 template <int N, int Capacity>
 void addInertial(BlockTransition<N, Capacity>& Phi, const Earth& earth, const ErrorModel& m, double dt) {
   const double half = 0.5 * dt * dt;
@@ -141,11 +141,12 @@ void addInertial(BlockTransition<N, Capacity>& Phi, const Earth& earth, const Er
   Phi.add(kPosition, kVelocity, Eigen::Matrix3d(dt * Eigen::Matrix3d::Identity()));
   Phi.add(kPosition, kPhi, Eigen::Matrix3d(0.5 * dt * v_by_phi));
   Phi.add(kPosition, kAccelerometerBias, Eigen::Matrix3d(-half * m.C));
-  if (earth.isFlat()) return;
+  if (!earth.turns()) return;
   Phi.add(kPhi, kPhi, Eigen::Matrix3d(dt * m.phi_phi));
+  Phi.add(kVelocity, kVelocity, Eigen::Matrix3d(dt * m.v_v));
+  if (earth.isFlat()) return;
   Phi.add(kPhi, kVelocity, Eigen::Matrix3d(-dt * m.phi_v));
   Phi.add(kPhi, kPosition, Eigen::Matrix3d(-dt * m.phi_p));
-  Phi.add(kVelocity, kVelocity, Eigen::Matrix3d(dt * m.v_v));
   Phi.add(kVelocity, kPosition, Eigen::Matrix3d(dt * m.v_p));
   Phi.add(kPosition, kPosition, Eigen::Matrix3d(dt * m.p_p));
 }

@@ -29,23 +29,31 @@ struct EarthPoint {
   Eigen::Vector3d omega_en(const Eigen::Vector3d& v_n) const;
 };
 
-/// Either a flat Earth that does not turn, on which coordinates are metres, or the ellipsoid with coordinates
-/// (longitude rad, latitude rad, height m).
+/// A flat Earth that does not turn or a flat one that does, on which coordinates are metres, or the ellipsoid
+/// with coordinates (longitude rad, latitude rad, height m).
 class Earth {
  public:
   /// Flat: no rotation, no curvature, this gravity (m/s^2) everywhere.
   static Earth flat(double gravity = 9.80665) { return Earth(gravity); }
   static Earth ellipsoid() { return Earth(); }
+  /// Flat, but turning at `rate` (rad/s, in the axes of the coordinates): one level for the whole site, right
+  /// to 1.6e-7 rad of tilt per metre from where the rate and the gravity were taken.
+  static Earth level(const Eigen::Vector3d& rate, double gravity) { return Earth(rate, gravity); }
 
   EarthPoint at(const Eigen::Vector3d& coordinates) const;
+  /// Coordinates are metres: no curvature.
   bool isFlat() const { return flat_; }
+  /// The Earth's rate is felt.
+  bool turns() const { return !flat_ || !rate_.isZero(0.0); }
 
  private:
   explicit Earth(double gravity) : flat_(true), gravity_(gravity) {}
+  Earth(const Eigen::Vector3d& rate, double gravity) : flat_(true), gravity_(gravity), rate_(rate) {}
   Earth() = default;
 
   bool flat_ = false;
   double gravity_ = 0.0;
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
 };
 
 /// Radii of curvature of the ellipsoid along the meridian and across it, m.
