@@ -65,6 +65,16 @@ Measurement measurementFrom(std::string_view line, const std::string& name, int 
   }
 }
 
+std::string sensorNamedBy(std::string_view line) {
+  try {
+    const YamlDocument document = parseJson(std::string(line), "line");
+    const YamlNode* sensor = document.root.find("sensor");
+    return sensor != nullptr && sensor->quoted ? sensor->text : std::string{};
+  } catch (const Error&) {
+    return {};  // the line says nothing at all
+  }
+}
+
 std::string jsonLine(const Measurement& measurement) {
   static const OptionTable<Line> kTable = lineOptions();
   const Line line = lineOf(measurement);

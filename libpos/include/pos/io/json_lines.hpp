@@ -14,6 +14,9 @@ namespace pos::io {
 /// range, no defect. `name` stands for the source in messages. Throws DataError with line, column and key.
 Measurement measurementFrom(std::string_view line, const std::string& name, int line_number = 1);
 
+/// The sensor that a line names, be the rest as it may; empty where it names none.
+std::string sensorNamedBy(std::string_view line);
+
 /// The line that measurementFrom reads back to the same measurement, without the line break.
 std::string jsonLine(const Measurement& measurement);
 
