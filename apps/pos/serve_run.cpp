@@ -1,0 +1,307 @@
+/// A finished run folder, played from its tables; and a map without any run.
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "pos/core/error.hpp"
+#include "pos/io/csv_table.hpp"
+#include "pos/io/files.hpp"
+#include "pos/io/text.hpp"
+#include "pos/serve/request.hpp"
+#include "serve_session.hpp"
+#include "verb_map.hpp"
+
+namespace pos::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What run.json says, with everything that can still be loaded.
+Inputs inputsOf(const fs::path& folder, const Voice& voice) {
+  const fs::path path = folder / "run.json";
+  nlohmann::json run;
+  try {
+    run = nlohmann::json::parse(io::fileText(
+        io::existingFile(path, Complaint{.suggestion = "give the folder that `pos replay --out` wrote"})));
+  } catch (const nlohmann::json::exception& error) {
+    throw DataError(
+        Complaint{.what = "run.json cannot be read", .place = {.file = path.string()}, .got = error.what()});
+  }
+  io::RunConfig config =
+      io::runConfigFrom(io::parseYaml(run.at("config").get<std::string>(), path), mrptShare());
+  try {
+    return loadInputs(config);
+  } catch (const Error& missing) {
+    voice.warn(
+        std::string("map and truth of the run are not to be had, its results are shown without them: ") +
+        missing.what());
+    return Inputs{std::move(config), std::make_shared<const map::TunnelMap>(), std::nullopt};
+  }
+}
+
+using Totals = std::array<std::uint64_t, kVerdicts.size()>;
+
+/// The rows of one estimator.
+struct Recorded {
+  std::vector<Estimate> estimates;
+  std::vector<Totals> totals;  ///< verdicts up to each row
+  std::vector<interval::IntervalBelief> places;
+};
+
+std::vector<Totals> totalsIn(const fs::path& file) {
+  io::CsvReader table(file);
+  std::array<std::size_t, kVerdicts.size()> columns{};
+  for (const Verdict verdict : kVerdicts)
+    columns[static_cast<std::size_t>(verdict)] = table.column(name(verdict));
+  std::vector<Totals> totals;
+  Totals sum{};
+  while (table.next()) {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      sum[i] += static_cast<std::uint64_t>(table.integer(columns[i]));
+    totals.push_back(sum);
+  }
+  return totals;
+}
+
+interval::MatchState stateOf(std::string_view word) {
+  using interval::MatchState;
+  if (word == "decided") return MatchState::Decided;
+  if (word == "branching") return MatchState::Branching;
+  return word == "lost" ? MatchState::Lost : MatchState::Waiting;
+}
+
+/// Rows of <estimator>.intervals.csv as beliefs again.
+class PlaceReader {
+ public:
+  PlaceReader(const fs::path& file, const serve::Names& names) : table_(file), names_(names) {}
+
+  std::vector<interval::IntervalBelief> all() {
+    std::vector<interval::IntervalBelief> places;
+    while (table_.next()) places.push_back(row());
+    return places;
+  }
+
+ private:
+  std::string_view cell(const char* column) const { return table_.cell(table_.column(column)); }
+  double number(const char* column) const { return table_.number(table_.column(column)); }
+
+  std::optional<std::size_t> intervalOf(std::string_view id) const {
+    const auto found = std::find_if(names_.intervals.begin(), names_.intervals.end(),
+                                    [&](const map::LockInterval& interval) { return interval.id == id; });
+    if (found == names_.intervals.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - names_.intervals.begin());
+  }
+
+  std::optional<map::RoadwayIndex> roadwayOf(std::string_view id) const {
+    const auto found = std::find(names_.roadways.begin(), names_.roadways.end(), id);
+    if (found == names_.roadways.end()) return std::nullopt;
+    return static_cast<map::RoadwayIndex>(found - names_.roadways.begin());
+  }
+
+  interval::IntervalBelief row() const {
+    interval::IntervalBelief belief{
+        .stamp = Stamp{table_.duration(table_.column("stamp_s"), io::text::TimeUnit::Seconds)},
+        .state = stateOf(cell("state"))};
+    const auto roadway = roadwayOf(cell("roadway"));
+    if (!roadway) {  // waiting, or another map than the run had
+      belief.state = interval::MatchState::Waiting;
+      return belief;
+    }
+    belief.point = {*roadway, number("chainage_m"), number("offset_m"), 0.0};
+    belief.along_sigma = number("sigma_along_m");
+    belief.across_sigma = number("sigma_across_m");
+    belief.against_chainage = cell("against_chainage") == "1";
+    belief.speed = number("speed_m_per_s");
+    belief.branch_probability = number("branch_probability");
+    for (const std::string_view word : io::text::words(cell("intervals"))) {
+      const std::size_t equals = word.rfind('=');
+      const auto interval =
+          equals != std::string_view::npos ? intervalOf(word.substr(0, equals)) : std::nullopt;
+      if (interval)
+        belief.intervals.push_back({*interval, io::text::number(word.substr(equals + 1)).value_or(0.0)});
+    }
+    if (const auto next = intervalOf(cell("next_interval"))) {
+      belief.next = interval::BoundaryAhead{*next, cell("next_is") == "entry", number("next_distance_m"),
+                                            number("next_in_s"), number("next_in_sigma_s")};
+    }
+    return belief;
+  }
+
+  io::CsvReader table_;
+  const serve::Names& names_;
+};
+
+Recorded recordedIn(const fs::path& folder, const std::string& estimator, const serve::Names& names) {
+  Recorded recorded;
+  const fs::path csv = folder / (estimator + ".csv");
+  recorded.estimates = io::readEstimateCsv(csv);
+  recorded.totals = totalsIn(csv);
+  const fs::path intervals = folder / (estimator + ".intervals.csv");
+  if (fs::exists(intervals)) recorded.places = PlaceReader(intervals, names).all();
+  return recorded;
+}
+
+/// The element whose stamp is the last at or before `stamp`, or null.
+template <class Element>
+const Element* latest(const std::vector<Element>& all, Stamp stamp) {
+  const auto after = std::upper_bound(all.begin(), all.end(), stamp,
+                                      [](Stamp t, const Element& element) { return t < element.stamp; });
+  return after == all.begin() ? nullptr : &*std::prev(after);
+}
+
+class RunShow final : public Session {
+ public:
+  RunShow(const fs::path& folder, const Inputs& inputs, const Clock& clock)
+      : folder_(folder), clock_(clock), stage_(sceneryOf(inputs, serve::Mode::Run)), playhead_(Stamp{}) {
+    setMapFile(inputs);
+    loadEstimators();
+    loadEvents();
+    if (stage_.first()) playhead_ = serve::Playhead(*stage_.first());
+  }
+
+  Stage& stage() override { return stage_; }
+  const fs::path* folder() const override { return &folder_; }
+
+  serve::Show show() override {
+    const std::lock_guard lock(mutex_);
+    const Duration now = clock_();
+    Stamp stamp = playhead_.at(now);
+    const bool ended = stage_.last() && stamp >= *stage_.last();
+    if (ended) {
+      stamp = *stage_.last();
+      playhead_.pause(now);
+      playhead_.seek(stamp, now);
+    }
+    serve::Show show = pictureAt(stamp);
+    show.playing = playhead_.playing();
+    show.speed = playhead_.speed();
+    show.ended = ended;
+    return show;
+  }
+
+  serve::Show showAt(Stamp stamp) override {
+    serve::Show show = pictureAt(stamp);
+    show.ended = stage_.last() && stamp >= *stage_.last();
+    return show;
+  }
+
+  void command(const serve::Command& command) override {
+    using Kind = serve::Command::Kind;
+    const std::lock_guard lock(mutex_);
+    const Duration now = clock_();
+    if (command.kind == Kind::Record) refuseInThisMode("a finished run cannot be recorded");
+    if (command.kind == Kind::Play) {
+      if (stage_.last() && playhead_.at(now) >= *stage_.last()) playhead_.seek(*stage_.first(), now);
+      playhead_.play(now);
+    }
+    if (command.kind == Kind::Pause) playhead_.pause(now);
+    if (command.kind == Kind::Speed) playhead_.setSpeed(command.speed, now);
+    if (command.kind == Kind::Seek && stage_.first())
+      playhead_.seek(std::clamp(command.stamp, *stage_.first(), *stage_.last()), now);
+  }
+
+ private:
+  void loadEstimators() {
+    std::optional<Stamp> first;
+    std::optional<Stamp> last;
+    for (std::size_t i = 0; i < stage_.scenery().estimators.size(); ++i) {
+      const std::string& name = stage_.scenery().estimators[i].name;
+      recorded_.push_back(recordedIn(folder_, name, stage_.scenery().names));
+      const Recorded& recorded = recorded_.back();
+      for (const Estimate& estimate : recorded.estimates) {
+        const auto* place = latest(recorded.places, estimate.stamp);
+        stage_.estimate(i, estimate, place != nullptr ? std::optional(*place) : std::nullopt);
+      }
+      if (recorded.estimates.empty()) continue;
+      const Stamp begin = recorded.estimates.front().stamp;
+      const Stamp end = recorded.estimates.back().stamp;
+      first = first ? std::min(*first, begin) : begin;
+      last = last ? std::max(*last, end) : end;
+    }
+    stage_.setSpan(first, last);
+  }
+
+  void loadEvents() {
+    if (!fs::exists(folder_ / "events.csv")) return;
+    io::CsvReader table(folder_ / "events.csv");
+    const std::size_t stamp = table.column("stamp_s");
+    while (table.next()) {
+      stage_.event({.stamp = Stamp{table.duration(stamp, io::text::TimeUnit::Seconds)},
+                    .estimator = std::string(table.cell(table.column("estimator"))),
+                    .kind = std::string(table.cell(table.column("kind"))),
+                    .sensor = std::string(table.cell(table.column("sensor"))),
+                    .detail = std::string(table.cell(table.column("detail")))});
+    }
+  }
+
+  serve::EstimatorState stateAt(std::size_t i, Stamp stamp) const {
+    const Recorded& recorded = recorded_[i];
+    serve::EstimatorState state{.name = stage_.scenery().estimators[i].name,
+                                .type = stage_.scenery().estimators[i].type};
+    const Estimate* estimate = latest(recorded.estimates, stamp);
+    if (estimate == nullptr) return state;
+    state.estimate = *estimate;
+    state.verdicts = recorded.totals[static_cast<std::size_t>(estimate - recorded.estimates.data())];
+    if (const auto* place = latest(recorded.places, stamp)) state.place = *place;
+    if (const auto truth = stage_.truthAt(estimate->stamp))
+      state.error = (truth->translation - estimate->T_map_body.translation).head<2>().norm();
+    return state;
+  }
+
+  serve::Show pictureAt(Stamp stamp) const {
+    serve::Show show{.mode = serve::Mode::Run,
+                     .stamp = stamp,
+                     .first = stage_.first(),
+                     .last = stage_.last(),
+                     .truth = stage_.truthAt(stamp)};
+    for (std::size_t i = 0; i < recorded_.size(); ++i) show.estimators.push_back(stateAt(i, stamp));
+    return show;
+  }
+
+  fs::path folder_;
+  Clock clock_;
+  Stage stage_;
+  std::vector<Recorded> recorded_;
+  std::mutex mutex_;
+  serve::Playhead playhead_;
+};
+
+class MapShow final : public Session {
+ public:
+  explicit MapShow(Inputs inputs) : stage_(sceneryOf(inputs, serve::Mode::Map)) {}
+  Stage& stage() override { return stage_; }
+  serve::Show show() override { return {.mode = serve::Mode::Map}; }
+  void command(const serve::Command&) override { refuseInThisMode("a map alone has nothing to play"); }
+
+ private:
+  Stage stage_;
+};
+
+}  // namespace
+
+serve::Show Session::showAt(Stamp) {
+  refuseInThisMode("only a finished run can be asked for another moment");
+}
+
+void Session::setMapFile(const Inputs& inputs) {
+  for (const InputFile& input : inputFiles(inputs)) {
+    if (input.role == "map") map_file_ = input.file;
+  }
+}
+
+void refuseInThisMode(const std::string& what) {
+  throw serve::RequestError(409, "not_in_this_mode", Complaint{.what = what});
+}
+
+std::unique_ptr<Session> runSession(const std::string& folder, const Clock& clock, const Voice& voice) {
+  return std::make_unique<RunShow>(folder, inputsOf(folder, voice), clock);
+}
+
+std::unique_ptr<Session> mapSession(const std::string& map) {
+  Inputs inputs;
+  inputs.map = std::make_shared<const map::TunnelMap>(mapOf(map));
+  return std::make_unique<MapShow>(std::move(inputs));
+}
+
+}  // namespace pos::app
