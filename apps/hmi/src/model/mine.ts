@@ -1,6 +1,6 @@
 /** What the plan, the words and the diagrams need of a map: objects with geometry worked out. */
 
-import { centrelineOf, endOf, placeAt, shifted, startOf, stretch, type Centreline, type Point3 } from './centreline';
+import { centrelineOf, placeAt, shifted, stretch, type Centreline, type Point3 } from './centreline';
 import { idOf, numberOf, pointOf, textOf, type Feature, type MapDocument } from './map_document';
 import type { LockInterval } from '../protocol/messages';
 
@@ -27,7 +27,7 @@ export interface Anchor {
 }
 
 export interface NamedPlace {
-  kind: 'junction' | 'portal' | 'light' | 'stop_line' | 'bend';
+  kind: 'junction' | 'portal' | 'light' | 'stop_line';
   id: string;
   x: number;
   y: number;
@@ -60,7 +60,9 @@ export function mineOf(map: MapDocument, intervals: LockInterval[]): Mine {
     drivesLeft,
     chambers: of('chamber').flatMap((feature) => chamberOf(feature, roadways)),
     anchors: of('anchor').flatMap(anchorOf),
-    places: (['junction', 'portal', 'light', 'stop_line'] as const).flatMap((kind) => of(kind).flatMap((f) => placeOf(f, kind))),
+    places: (['junction', 'portal', 'light', 'stop_line'] as const).flatMap((kind) =>
+      of(kind).flatMap((feature) => placeOf(feature, kind, roadways)),
+    ),
     intervals: intervals.map((interval) => shapeOf(interval, roadways, drivesLeft)),
   };
 }
@@ -102,9 +104,25 @@ function anchorOf(feature: Feature): Anchor[] {
   return point ? [{ id: idOf(feature), name: textOf(feature, 'name'), x: point[0], y: point[1] }] : [];
 }
 
-function placeOf(feature: Feature, kind: NamedPlace['kind']): NamedPlace[] {
+/** Chainage counts; the point of the feature where there is none. */
+function placeOf(feature: Feature, kind: NamedPlace['kind'], roadways: Map<string, Roadway>): NamedPlace[] {
+  const named = hungOn(feature);
+  const line = roadways.get(named?.roadway ?? '')?.line;
+  if (named && line && line.points.length > 1) {
+    const { point } = placeAt(line, named.chainage);
+    return [{ kind, id: idOf(feature), x: point[0], y: point[1] }];
+  }
   const point = pointOf(feature);
   return point ? [{ kind, id: idOf(feature), x: point[0], y: point[1] }] : [];
+}
+
+/** Roadway and chainage of an object; of the first of its places for a junction. */
+function hungOn(feature: Feature): { roadway: string; chainage: number } | null {
+  const places = feature.properties['places'];
+  const keys: unknown = Array.isArray(places) ? places[0] : feature.properties;
+  if (typeof keys !== 'object' || keys === null) return null;
+  const { roadway, chainage_m: chainage } = keys as Record<string, unknown>;
+  return typeof roadway === 'string' && typeof chainage === 'number' ? { roadway, chainage } : null;
 }
 
 /** On two lanes an interval lies in its own lane, a quarter of the width off the centreline. */
@@ -133,5 +151,3 @@ export function extentOf(mine: Mine): [number, number, number, number] | null {
   }
   return extent;
 }
-
-export { endOf, startOf };

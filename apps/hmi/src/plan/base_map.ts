@@ -26,7 +26,7 @@ export function planeMap(target: HTMLElement, layers: BaseLayer[]): OlMap {
     layers,
     view,
     controls: [new ScaleLine({ minWidth: 80 })],
-    interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, zoomDuration: 120 }),
+    interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false, zoomDuration: 120 }),
     moveTolerance: 3,
   });
 }

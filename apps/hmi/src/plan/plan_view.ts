@@ -10,7 +10,7 @@ import { extentOf } from '../model/mine';
 import type { Track } from '../model/track';
 import { lowerBound } from '../model/levels';
 import { fit, planeMap } from './base_map';
-import { backgroundLayer } from './background_layer';
+import { Background } from './background_layer';
 import { CanvasLayer } from './canvas_layer';
 import { mineFeatures } from './mine_features';
 import { mineStyle, type Look } from './mine_styles';
@@ -40,7 +40,7 @@ export class PlanView {
     });
     const { feed } = context.session;
     const layers = [mineLayer, this.overlay];
-    this.map = planeMap(target, feed.map && feed.background ? [backgroundLayer(feed.map, feed.background), ...layers] : layers);
+    this.map = planeMap(target, feed.map && feed.background ? [new Background(feed.map, feed.background).layer, ...layers] : layers);
     this.map.on('pointerdrag', () => context.options.set({ follow: false }));
     this.showAll();
   }
