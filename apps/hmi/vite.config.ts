@@ -12,8 +12,9 @@ export default defineConfig({
         test: {
           name: 'browser',
           include: ['tests/browser/**/*.test.ts'],
-          testTimeout: 60000,
-          hookTimeout: 60000,
+          testTimeout: 120000,
+          hookTimeout: 120000,
+          expect: { poll: { timeout: 15000 } },
           poolOptions: { forks: { singleFork: true } },
         },
       },

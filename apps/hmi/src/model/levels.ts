@@ -23,7 +23,8 @@ export interface PlanarTrack {
 }
 
 export function levelsOf(track: PlanarTrack, step = 0.05): Level[] {
-  const all = Uint32Array.from({ length: track.x.length }, (_, index) => index);
+  const all = new Uint32Array(track.x.length);
+  for (let i = 0; i < all.length; ++i) all[i] = i;
   const levels = [level(track, all, 0)];
   for (let spacing = step; ; spacing *= 2) {
     const finer = levels[levels.length - 1]!;
@@ -51,7 +52,9 @@ function thinned(track: PlanarTrack, index: Uint32Array, spacing: number): Uint3
     const at = index[i]!;
     const x = track.x[at]!;
     const y = track.y[at]!;
-    const near = (x - lastX) ** 2 + (y - lastY) ** 2 < limit; // false for the first point: NaN
+    const dx = x - lastX;
+    const dy = y - lastY;
+    const near = dx * dx + dy * dy < limit; // false for the first point: NaN
     if (near && i !== index.length - 1) continue;
     kept[count++] = at;
     lastX = x;
@@ -69,10 +72,10 @@ function boxesOf(track: PlanarTrack, index: Uint32Array): Float64Array {
     for (let i = chunk * kChunk; i < end; ++i) {
       const x = track.x[index[i]!]!;
       const y = track.y[index[i]!]!;
-      minX = Math.min(minX, x);
-      maxX = Math.max(maxX, x);
-      minY = Math.min(minY, y);
-      maxY = Math.max(maxY, y);
+      if (x < minX) minX = x;
+      if (x > maxX) maxX = x;
+      if (y < minY) minY = y;
+      if (y > maxY) maxY = y;
     }
     boxes.set([minX, minY, maxX, maxY], 4 * chunk);
   }

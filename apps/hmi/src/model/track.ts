@@ -18,8 +18,8 @@ export const kColumns = [
 export type Column = (typeof kColumns)[number];
 
 export function trackOf(name: string, rows: TrackRows): Track {
-  const x = Float64Array.from(rows.columns.get('x_m') ?? []);
-  const y = Float64Array.from(rows.columns.get('y_m') ?? []);
+  const x = new Float64Array(rows.columns.get('x_m') ?? []);
+  const y = new Float64Array(rows.columns.get('y_m') ?? []);
   return { name, stamp: rows.stamp, columns: rows.columns, x, y, levels: levelsOf({ x, y }) };
 }
 

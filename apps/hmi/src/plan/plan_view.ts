@@ -12,17 +12,26 @@ import { lowerBound } from '../model/levels';
 import { fit, planeMap } from './base_map';
 import { Background } from './background_layer';
 import { CanvasLayer } from './canvas_layer';
+import { KeptPicture } from './kept_picture';
 import { mineFeatures } from './mine_features';
 import { mineStyle, type Look } from './mine_styles';
 import { classesOf } from './track_classes';
-import { paintTrack, type Span, type TrackStyle, type Window } from './track_painter';
+import { paintTrack, type TrackStyle, type Window } from './track_painter';
+import { partsOf, type Part } from './track_parts';
 import { paintTruth, paintVehicle } from './vehicle_painter';
+
+interface DrawnPart {
+  name: string;
+  track: Track;
+  part: Part;
+}
 
 export class PlanView {
   readonly map: OlMap;
   private readonly look: Look;
   private readonly mine = new VectorSource<Feature<Geometry>>();
   private readonly overlay = new CanvasLayer((context, window) => this.paint(context, window), 5);
+  private readonly kept = new KeptPicture(() => this.overlay.changed());
   private readonly classes = new WeakMap<Track, { key: string; classOf: Uint8Array | null }>();
   private lookKey = '';
 
@@ -81,10 +90,7 @@ export class PlanView {
   private paint(context: CanvasRenderingContext2D, window: Window): void {
     const { session, options } = this.context;
     const { hidden } = options.now;
-    for (const name of trackNames(this.context)) {
-      const track = session.tracks.get(name);
-      if (track && !hidden.has(name)) this.paintOne(context, window, name, track);
-    }
+    this.paintTracks(context, window);
     const state = session.state;
     if (!state) return;
     if (state.truth && !hidden.has('truth')) paintTruth(context, window, state.truth, this.context.paint.text);
@@ -96,25 +102,32 @@ export class PlanView {
     }
   }
 
-  private paintOne(context: CanvasRenderingContext2D, window: Window, name: string, track: Track): void {
-    const style = this.trackStyle(name, track);
-    const { past, future } = this.spans(track);
-    if (future && name !== 'truth') {
-      context.globalAlpha = 0.25;
-      paintTrack(context, track, track.levels, future, window, style);
-      context.globalAlpha = 1;
-    }
-    paintTrack(context, track, track.levels, past, window, style);
+  private paintTracks(context: CanvasRenderingContext2D, window: Window): void {
+    const drawn = this.drawnParts();
+    const kept = drawn.filter(({ part }) => part.kept);
+    const key = this.context.options.now.colourBy + kept.map(({ name, part }) => `${name} ${part.first} ${part.end}`).join();
+    if (kept.length > 0) this.kept.draw(context, window, key, (pen, all) => kept.forEach((one) => this.paintPart(pen, all, one)));
+    for (const one of drawn) if (!one.part.kept) this.paintPart(context, window, one);
   }
 
-  private spans(track: Track): { past: Span; future: Span | null } {
-    const state = this.context.session.state;
-    const now = state?.stamp_s ?? Infinity;
-    const minutes = this.context.options.now.trailMinutes;
-    const end = lowerBound(track.stamp, now + 1e-6);
-    const first = minutes === null ? 0 : lowerBound(track.stamp, now - 60 * minutes);
-    const rest = { first: Math.max(0, end - 1), end: track.stamp.length };
-    return { past: { first, end }, future: state?.mode === 'run' ? rest : null };
+  private drawnParts(): DrawnPart[] {
+    const { session, options } = this.context;
+    const { hidden, trailMinutes } = options.now;
+    const now = session.state?.stamp_s ?? Infinity;
+    return trackNames(this.context).flatMap((name) => {
+      const track = session.tracks.get(name);
+      if (!track || hidden.has(name)) return [];
+      const end = lowerBound(track.stamp, now + 1e-6);
+      const first = trailMinutes === null ? 0 : lowerBound(track.stamp, now - 60 * trailMinutes);
+      const showFuture = session.state?.mode === 'run' && name !== 'truth';
+      return partsOf(track.stamp.length, first, end, showFuture).map((part) => ({ name, track, part }));
+    });
+  }
+
+  private paintPart(context: CanvasRenderingContext2D, window: Window, { name, track, part }: DrawnPart): void {
+    context.globalAlpha = part.future ? 0.25 : 1;
+    paintTrack(context, track, track.levels, part, window, this.trackStyle(name, track));
+    context.globalAlpha = 1;
   }
 
   private trackStyle(name: string, track: Track): TrackStyle {

@@ -10,7 +10,9 @@ export function classesOf(track: Track, colourBy: ColourBy, colours: number): Ui
   if (colourBy === 'estimator') return null;
   const values = track.columns.get(colourBy === 'error' ? 'error_m' : 'interval');
   if (!values) return null;
-  return Uint8Array.from(values, (value) => (colourBy === 'error' ? errorClass(value) : zoneClass(value, colours)));
+  const classes = new Uint8Array(values.length);
+  for (let i = 0; i < values.length; ++i) classes[i] = colourBy === 'error' ? errorClass(values[i]!) : zoneClass(values[i]!, colours);
+  return classes;
 }
 
 function errorClass(error: number): number {

@@ -30,6 +30,7 @@ function isTyping(event: KeyboardEvent): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.closest('dialog')) return true;
   if (target instanceof HTMLInputElement && ['checkbox', 'radio'].includes(target.type)) return event.key === ' ';
+  if (target.matches('input[type=range]')) return /^(Arrow|Page|Home|End)/.test(event.key);
   if (target.matches('input, select, textarea')) return true;
   const pressesButton = target.matches('button, a, summary') && (event.key === ' ' || event.key === 'Enter');
   const movesPlan = target.classList.contains('plan') && event.key.startsWith('Arrow');

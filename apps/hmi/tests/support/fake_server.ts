@@ -29,6 +29,7 @@ export class FakeServer {
   private readonly server: Server;
   private timers: NodeJS.Timeout[] = [];
   private seq = 0;
+  private told = '';
 
   constructor(
     readonly mode: SceneMode,
@@ -62,7 +63,10 @@ export class FakeServer {
     const moving = this.mode === 'live' || (this.playing && this.mode !== 'map');
     if (moving) this.stamp = Math.min(kEnd, this.stamp + seconds * (this.mode === 'live' ? 1 : this.speed));
     for (const [name, age] of this.cut) this.cut.set(name, age + seconds);
-    this.send('state', this.state());
+    const state = this.state();
+    const told = JSON.stringify({ ...state, seq: 0 });
+    if (told !== this.told) this.send('state', state);
+    this.told = told;
   }
 
   state(): State {
