@@ -1,13 +1,14 @@
 /** A picture of what seldom changes, larger than the window, moved and scaled while the reader pans and zooms, painted anew at rest. */
 
-import type { Painter } from './canvas_layer';
+import type { Painter, Pen } from './canvas_layer';
 import type { Window } from './track_painter';
 
 const kMargin = 0.5; // on each side, in shares of the window
 const kRestMs = 200;
 
 export class KeptPicture {
-  private readonly canvas = document.createElement('canvas');
+  /** A bitmap: a canvas would keep the strokes and draw them again with every frame. */
+  private bitmap: ImageBitmap | null = null;
   private window: Window | null = null;
   private key = '';
   private rest: ReturnType<typeof setTimeout> | null = null;
@@ -16,13 +17,17 @@ export class KeptPicture {
   constructor(private readonly atRest: () => void) {}
 
   /** Draws the picture for this window; `paint` is asked only when key or window call for another one. */
-  draw(context: CanvasRenderingContext2D, window: Window, key: string, paint: Painter): void {
-    if (this.window === null || key !== this.key || !covers(this.window, window)) this.renew(window, key, paint);
-    const { left, top, width, height, resolution } = this.window!;
+  draw(context: Pen, window: Window, key: string, paint: Painter): void {
+    if (this.window === null || this.bitmap === null || key !== this.key || !covers(this.window, window)) this.renew(window, key, paint);
+    if (this.window === null || this.bitmap === null) return;
+    const { left, top, width, height, resolution } = this.window;
     const scale = resolution / window.resolution;
     const [x, y] = [(left - window.left) / window.resolution, (window.top - top) / window.resolution];
-    context.drawImage(this.canvas, x, y, width * scale, height * scale);
-    if (scale !== 1) this.sharpenLater();
+    const moving = scale !== 1;
+    const snap = (value: number): number => (moving ? value : Math.round(value * devicePixelRatio) / devicePixelRatio);
+    context.imageSmoothingEnabled = false; // a copy of pixels: a third of the time, and at rest it is exact anyway
+    context.drawImage(this.bitmap, snap(x), snap(y), width * scale, height * scale);
+    if (moving) this.sharpenLater();
   }
 
   private renew(window: Window, key: string, paint: Painter): void {
@@ -36,12 +41,13 @@ export class KeptPicture {
       resolution,
     };
     const ratio = devicePixelRatio;
-    this.canvas.width = this.window.width * ratio; // also clears it
-    this.canvas.height = this.window.height * ratio;
-    const pen = this.canvas.getContext('2d');
+    const canvas = new OffscreenCanvas(Math.round(this.window.width * ratio), Math.round(this.window.height * ratio));
+    const pen = canvas.getContext('2d', { willReadFrequently: true });
     if (!pen) return;
     pen.scale(ratio, ratio);
     paint(pen, this.window);
+    this.bitmap?.close();
+    this.bitmap = canvas.transferToImageBitmap();
   }
 
   private sharpenLater(): void {

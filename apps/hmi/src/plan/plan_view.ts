@@ -11,7 +11,7 @@ import type { Track } from '../model/track';
 import { lowerBound } from '../model/levels';
 import { fit, planeMap } from './base_map';
 import { Background } from './background_layer';
-import { CanvasLayer } from './canvas_layer';
+import { CanvasLayer, type Pen } from './canvas_layer';
 import { KeptPicture } from './kept_picture';
 import { mineFeatures } from './mine_features';
 import { mineStyle, type Look } from './mine_styles';
@@ -87,7 +87,7 @@ export class PlanView {
     this.mine.changed();
   }
 
-  private paint(context: CanvasRenderingContext2D, window: Window): void {
+  private paint(context: Pen, window: Window): void {
     const { session, options } = this.context;
     const { hidden } = options.now;
     this.paintTracks(context, window);
@@ -102,7 +102,7 @@ export class PlanView {
     }
   }
 
-  private paintTracks(context: CanvasRenderingContext2D, window: Window): void {
+  private paintTracks(context: Pen, window: Window): void {
     const drawn = this.drawnParts();
     const kept = drawn.filter(({ part }) => part.kept);
     const key = this.context.options.now.colourBy + kept.map(({ name, part }) => `${name} ${part.first} ${part.end}`).join();
@@ -124,7 +124,7 @@ export class PlanView {
     });
   }
 
-  private paintPart(context: CanvasRenderingContext2D, window: Window, { name, track, part }: DrawnPart): void {
+  private paintPart(context: Pen, window: Window, { name, track, part }: DrawnPart): void {
     context.globalAlpha = part.future ? 0.25 : 1;
     paintTrack(context, track, track.levels, part, window, this.trackStyle(name, track));
     context.globalAlpha = 1;

@@ -1,5 +1,6 @@
 /** Draws one long track into a canvas: right level of detail, chunks in the window only, no pixel painted twice over. */
 
+import type { Pen } from './canvas_layer';
 import { kChunk, levelFor, lowerBound, type Level, type PlanarTrack } from '../model/levels';
 
 /** From map metres to canvas pixels: column = (x - left) / resolution, row = (top - y) / resolution. */
@@ -27,7 +28,7 @@ export interface Span {
 
 /** Draws the points `span.first` to `span.end` (indices of the track). */
 export function paintTrack(
-  context: CanvasRenderingContext2D,
+  context: Pen,
   track: PlanarTrack,
   levels: Level[],
   span: Span,

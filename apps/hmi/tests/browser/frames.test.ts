@@ -1,3 +1,4 @@
+import { cpus, loadavg } from 'node:os';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { launched, opened } from '../support/browser';
@@ -7,6 +8,7 @@ import { trackBytes } from '../../src/protocol/track_bytes';
 
 const kPoints = 1_000_000;
 const kWanted = 30;
+const kFrames = 120;
 let browser: Browser;
 beforeAll(async () => void (browser = await launched()));
 afterAll(() => browser.close());
@@ -40,36 +42,59 @@ test(`a million points pan and zoom at ${kWanted} frames a second or more, witho
   await page.locator('.plan-bar select').first().selectOption('error');
   await page.waitForTimeout(1000);
 
-  /** Moves the plan in every frame, with the events that a mouse makes, and counts the frames. */
-  const measured = (kind: 'pan' | 'zoom'): Promise<number> =>
-    page.evaluate(async (what) => {
-      const viewport = document.querySelector('.ol-viewport')!;
-      const box = viewport.getBoundingClientRect();
-      const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-      const pointer = (type: string, dx: number, dy: number): void => {
-        const place = { clientX: x + dx, clientY: y + dy, pointerId: 1, isPrimary: true, pointerType: 'mouse', button: 0, buttons: 1 };
-        viewport.dispatchEvent(new PointerEvent(type, { ...place, bubbles: true }));
-      };
-      const wheel = (step: number): boolean =>
-        viewport.dispatchEvent(new WheelEvent('wheel', { clientX: x, clientY: y, deltaY: step, bubbles: true, cancelable: true }));
-      if (what === 'pan') pointer('pointerdown', 0, 0);
-      const frames = 90;
-      const begin = performance.now();
-      for (let frame = 0; frame < frames; ++frame) {
-        if (what === 'pan') pointer('pointermove', 120 * Math.sin(frame / 8), 80 * Math.sin(frame / 11));
-        else wheel(frame % 60 < 30 ? -25 : 25);
-        await new Promise(requestAnimationFrame);
-      }
-      const seconds = (performance.now() - begin) / 1000;
-      if (what === 'pan') pointer('pointerup', 0, 0);
-      return frames / seconds;
-    }, kind);
+  const session = await page.context().newCDPSession(page);
+  await session.send('Performance.enable', { timeDomain: 'threadTicks' });
+  const processorSeconds = async (): Promise<number> => {
+    const { metrics } = await session.send('Performance.getMetrics');
+    return metrics.find((metric) => metric.name === 'TaskDuration')!.value;
+  };
 
-  const pan = await measured('pan');
-  const zoom = await measured('zoom');
-  console.log(`${kPoints} points: pan ${pan.toFixed(1)} frames/s, zoom ${zoom.toFixed(1)} frames/s`);
+  /** Moves the plan in every frame with the events that a mouse makes; frames a second, and main-thread time of a frame. */
+  const measured = async (kind: 'pan' | 'zoom' | 'rest'): Promise<Figures> => {
+    const before = await processorSeconds();
+    const seconds = await page.evaluate(moveThePlan, { kind, frames: kFrames });
+    const busy = (await processorSeconds()) - before;
+    return { kind, framesPerSecond: kFrames / seconds, processorMs: (1000 * busy) / kFrames };
+  };
+
+  for (const kind of ['rest', 'pan', 'zoom'] as const) {
+    const { framesPerSecond, processorMs } = await measured(kind);
+    const load = loadavg()[0]!.toFixed(1);
+    console.log(`${kPoints} points, ${kind}: ${framesPerSecond.toFixed(1)} frames/s, ${processorMs.toFixed(1)} ms of processor a frame, load ${load}`);
+    expect(processorMs).toBeLessThan(1000 / kWanted);
+    // A machine that is busy with other things gives this page a part of a core; then only the processor time can be judged.
+    if (loadavg()[0]! < cpus().length) expect(framesPerSecond).toBeGreaterThanOrEqual(kWanted);
+  }
   expect(here.errors).toEqual([]);
-  expect(pan).toBeGreaterThanOrEqual(kWanted);
-  expect(zoom).toBeGreaterThanOrEqual(kWanted);
   await here.close();
 });
+
+interface Figures {
+  kind: string;
+  framesPerSecond: number;
+  processorMs: number;
+}
+
+/** Runs in the page. */
+async function moveThePlan({ kind, frames }: { kind: string; frames: number }): Promise<number> {
+  const viewport = document.querySelector('.ol-viewport')!;
+  const box = viewport.getBoundingClientRect();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const pointer = (type: string, dx: number, dy: number): void => {
+    const place = { clientX: x + dx, clientY: y + dy, pointerId: 1, isPrimary: true, pointerType: 'mouse', button: 0, buttons: 1 };
+    viewport.dispatchEvent(new PointerEvent(type, { ...place, bubbles: true }));
+  };
+  const wheel = (step: number): void => {
+    viewport.dispatchEvent(new WheelEvent('wheel', { clientX: x, clientY: y, deltaY: step, bubbles: true, cancelable: true }));
+  };
+  const begin = performance.now();
+  if (kind === 'pan') pointer('pointerdown', 0, 0);
+  for (let frame = 0; frame < frames; ++frame) {
+    if (kind === 'pan') pointer('pointermove', 120 * Math.sin(frame / 8), 80 * Math.sin(frame / 11));
+    if (kind === 'zoom') wheel(frame % 60 < 30 ? -25 : 25);
+    await new Promise(requestAnimationFrame);
+  }
+  const seconds = (performance.now() - begin) / 1000;
+  if (kind === 'pan') pointer('pointerup', 0, 0);
+  return seconds;
+}
