@@ -1,0 +1,23 @@
+import { defineConfig } from 'vitest/config';
+
+/** The page that `pos serve` hands out; during development it asks a server on the usual port. */
+export default defineConfig({
+  base: './',
+  build: { outDir: 'dist', target: 'es2022', modulePreload: false, chunkSizeWarningLimit: 900 },
+  server: { proxy: { '/api': 'http://127.0.0.1:8090' } },
+  test: {
+    projects: [
+      { test: { name: 'unit', include: ['tests/unit/**/*.test.ts'] } },
+      {
+        test: {
+          name: 'browser',
+          include: ['tests/browser/**/*.test.ts'],
+          testTimeout: 120000,
+          hookTimeout: 120000,
+          expect: { poll: { timeout: 15000 } },
+          poolOptions: { forks: { singleFork: true } },
+        },
+      },
+    ],
+  },
+});
