@@ -23,9 +23,9 @@ struct CircleOptions {
   int uwb_every = 10;      ///< inertial samples between epochs
   double uwb_phase = 0.0;  ///< s after a sample
   double range_sigma = 0.30;
-  double hidden_share = 0.0;  ///< probability per anchor and 0.5 s; then 0.3 to 1.5 m too long
-  double unit_errors = 1.0;   ///< times biases and noise of the inertial unit
-  Eigen::Vector3d imu{0.6, 0.0, 0.3};
+  double hidden_share = 0.0;           ///< probability per anchor and 0.5 s; then 0.3 to 1.5 m too long
+  double unit_errors = 1.0;            ///< times biases and noise of the inertial unit
+  Eigen::Vector3d imu{0.0, 0.0, 0.3};  ///< above the origin: its velocity does not jump at the turn
   Eigen::Vector3d tag{0.0, 0.0, 0.5};
 };
 

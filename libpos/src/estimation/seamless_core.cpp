@@ -5,6 +5,7 @@
 
 #include "parts.hpp"
 #include "pos/core/chi_square.hpp"
+#include "seamless_parts.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -14,35 +15,14 @@ using filters::LikelihoodForm;
 using filters::Modes;
 
 constexpr std::array<std::string_view, kSeamlessModes> kNames{"gnss", "uwb"};
-constexpr double kUnsure = 1e3;     // m, sigma of a place that readings do not tell
 constexpr double kRecovery = 10.0;  // on the covariance, each time the state is doubted
 constexpr double kClipped = 12.0;   // squared sigmas of a range, for learning
-
-/// 99.99 % of a chi-square variable stay below, by degrees of freedom.
-double evidenceLimit(int dof) {
-  static const std::array<double, 65> kLimits = [] {
-    std::array<double, 65> all{};
-    for (std::size_t n = 1; n < all.size(); ++n) all[n] = chiSquareQuantile(0.9999, static_cast<double>(n));
-    return all;
-  }();
-  return kLimits[std::min<std::size_t>(static_cast<std::size_t>(dof), kLimits.size() - 1)];
-}
-
-double logDet(const Matrix<3, 3>& S) {
-  return 2.0 * S.llt().matrixL().toDenseMatrix().diagonal().array().log().sum();
-}
 
 std::size_t other(std::size_t mode) {
   return 1 - mode;
 }
 Eigen::Index row(std::size_t mode) {
   return static_cast<Eigen::Index>(mode);
-}
-
-/// Sigma per axis of the place that readings with this information give.
-double placeSigma(const Matrix<3, 3>& information) {
-  const Matrix<3, 3> weak = information + Matrix<3, 3>::Identity() / square(kUnsure);
-  return std::sqrt(weak.inverse().trace() / 3.0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "pos/core/pose3.hpp"
 #include "pos/core/random.hpp"
+#include "support/eskf_samples.hpp"
 #include "support/numeric_jacobian.hpp"
 
 namespace pos::ins {
@@ -13,39 +14,10 @@ namespace {
 
 constexpr double kGravity = 9.80665;
 
-Eigen::Vector3d triple(RandomStream& random, double size) {
-  const double x = random.uniform(-size, size);
-  const double y = random.uniform(-size, size);
-  const double z = random.uniform(-size, size);
-  return {x, y, z};
-}
-
-EskfState someState(RandomStream& random) {
-  EskfState x;
-  x.p_map = triple(random, 1.0);
-  x.v_map = triple(random, 3.0);
-  x.q_map_body = quaternionFromRotationVector(triple(random, 1.8));
-  x.accelerometer_bias = triple(random, 0.05);
-  x.gyro_bias = triple(random, 0.01);
-  return x;
-}
-
-ImuIncrement someSample(RandomStream& random, double dt) {
-  const Eigen::Vector3d rate = triple(random, 2.0);
-  const Eigen::Vector3d force = triple(random, 5.0) + Eigen::Vector3d(0.0, 0.0, kGravity);
-  return {dt * rate, dt * force, dt};
-}
-
-/// A positive definite matrix with correlations everywhere.
-Matrix<15, 15> someCovariance(RandomStream& random) {
-  Matrix<15, 15> A;
-  for (int i = 0; i < 225; ++i) A(i / 15, i % 15) = random.uniform(-1.0, 1.0);
-  Vector<15> scale;
-  scale << 0.4, 0.4, 0.4, 0.1, 0.1, 0.1, 0.02, 0.02, 0.03, 0.02, 0.02, 0.02, 5e-4, 5e-4, 5e-4;
-  Matrix<15, 15> P = scale.asDiagonal() * (A * A.transpose()) * scale.asDiagonal();
-  P = 0.5 * (P + P.transpose()).eval();
-  return P;
-}
+using testing::overSigmas;
+using testing::someCovariance;
+using testing::someSample;
+using testing::someState;
 
 TEST(Eskf, TransitionIsTheDerivativeOfTheStep) {
   RandomStream random(1, 0);
@@ -86,10 +58,7 @@ TEST(Eskf, BlocksCarryACovarianceAsTheFullMatricesDo) {
       Matrix<15, 15> P = before;
       carry(P, step.F, Q);
       const Matrix<15, 15> dense = carriedDense(before, step.F, Q);
-      const Vector<15> sigma = dense.diagonal().cwiseSqrt();
-      const Matrix<15, 15> error =
-          sigma.cwiseInverse().asDiagonal() * (P - dense) * sigma.cwiseInverse().asDiagonal();
-      EXPECT_LT(error.cwiseAbs().maxCoeff(), 1e-12);
+      EXPECT_LT(overSigmas(P - dense, dense).cwiseAbs().maxCoeff(), 1e-12);
       EXPECT_EQ(P, P.transpose());
     }
   }
@@ -172,9 +141,7 @@ TEST(Eskf, QuaternionStaysAUnitAndCovariancePositiveOverAMillionSteps) {
     belief.covariance *= 0.99;
     if (i % 1000 == 999) {
       ASSERT_EQ(belief.covariance, belief.covariance.transpose());
-      const Vector<15> sigma = belief.covariance.diagonal().cwiseSqrt();
-      const Matrix<15, 15> scaled =
-          sigma.cwiseInverse().asDiagonal() * belief.covariance * sigma.cwiseInverse().asDiagonal();
+      const Matrix<15, 15> scaled = overSigmas(belief.covariance, belief.covariance);
       ASSERT_GT((Eigen::SelfAdjointEigenSolver<Matrix<15, 15>>(scaled).eigenvalues().minCoeff()), 0.0) << i;
     }
   }
