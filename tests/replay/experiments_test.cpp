@@ -22,7 +22,8 @@ INSTANTIATE_TEST_SUITE_P(
                       "experiments/encoders_sins/slip", "experiments/encoders_sins/heading",
                       "experiments/encoders_sins/loop", "experiments/encoders_sins/lockout",
                       "experiments/encoders_sins/vehicle_scale", "experiments/encoders_sins/dual_tag_start",
-                      "experiments/encoders_sins/real_odometry"),
+                      "experiments/encoders_sins/real_odometry", "experiments/seamless/circle_nlos",
+                      "experiments/seamless/circle_los", "uwb_imu/uwb_demo"),
     [](const auto& named) {
       std::string name = named.param;
       for (char& c : name) c = c == '/' ? '_' : c;

@@ -28,9 +28,10 @@ class Recordings : public ::testing::Test {
     EXPECT_EQ(run.out, "");
   }
 
-  json replay(const std::string& config, const std::string& folder) const {
+  json replay(const std::string& config, const std::string& folder,
+              const std::string& system = "range_odometry") const {
     return replayed(bench_,
-                    {source("configs/range_odometry/" + config + ".yaml"), "--log", folder + "/log.rawlog",
+                    {source("configs/" + system + "/" + config + ".yaml"), "--log", folder + "/log.rawlog",
                      "--map", folder + "/map.yaml", "--truth", folder + "/truth.tum"});
   }
 
@@ -66,6 +67,7 @@ TEST_F(Recordings, HanyangKeepsItsFigures) {
   convert("hanyang", "hanyang_los_b4");
   expectMeasurements("hanyang");
   expectFigures("range_odometry/hanyang", {replay("hanyang", "hanyang")});
+  expectFigures("uwb_imu/hanyang", {replay("hanyang", "hanyang", "uwb_imu")});
 }
 
 TEST_F(Recordings, LiasKeepsItsFigures) {
