@@ -292,10 +292,11 @@ Diagnostics Shearer::diagnostics() const {
                      {"picm_angle_rad", eta_},
                      {"mount_yaw_rad", x.sensor.yaw, x.sensor_states ? sigma(x.sensorRow()) : 0.0}};
   if (x.sensor_states) {
-    values.push_back({"range_scale", x.sensor.scale, sigma(x.sensorRow() + 1)});
-    values.push_back({"range_offset_m", x.sensor.offset, sigma(x.sensorRow() + 2)});
-    values.push_back({"angle_scale", x.sensor.angle_scale, sigma(x.sensorRow() + 3)});
-    values.push_back({"angle_curve_per_rad", x.sensor.angle_curve, sigma(x.sensorRow() + 4)});
+    values.push_back({"mount_pitch_rad", x.sensor.pitch, sigma(x.sensorRow() + 1)});
+    values.push_back({"range_scale", x.sensor.scale, sigma(x.sensorRow() + 2)});
+    values.push_back({"range_offset_m", x.sensor.offset, sigma(x.sensorRow() + 3)});
+    values.push_back({"angle_scale", x.sensor.angle_scale, sigma(x.sensorRow() + 4)});
+    values.push_back({"angle_curve_per_rad", x.sensor.angle_curve, sigma(x.sensorRow() + 5)});
   }
   const char* axes = "xyz";
   for (int i = 0; i < 3; ++i) {

@@ -113,6 +113,8 @@ OptionTable<ScannerStates> scannerStateOptions() {
   return OptionTable<ScannerStates>("scanner", "Errors of scanner and mount as states.")
       .flag("states", &ScannerStates::use, "Whether they are estimated.")
       .number("mount_yaw_sigma_deg", &ScannerStates::mount_yaw_sigma, between(0, 10), "Yaw of the mount.")
+      .number("mount_pitch_sigma_deg", &ScannerStates::mount_pitch_sigma, between(0, 10),
+              "Pitch of the mount.")
       .number("scale_sigma", &ScannerStates::scale_sigma, between(0, 0.1), "Scale of ranges.")
       .number("offset_sigma_m", &ScannerStates::offset_sigma, between(0, 1), "Offset of ranges.")
       .number("angle_scale_sigma", &ScannerStates::angle_scale_sigma, between(0, 0.1), "Scale of angles.")
@@ -132,6 +134,10 @@ OptionTable<EndFixConfig> endFixOptions() {
       .number("first_cut_lateral_m", &EndFixConfig::first_cut_lateral, between(-100, 100),
               "Right of the line from end 1 along the heading.")
       .number("first_cut_height_m", &EndFixConfig::first_cut_height, between(-100, 100), "Above end 1.")
+      .number("first_cut_straight_sigma_m", &EndFixConfig::first_cut_straight_sigma, between(0, 10),
+              "How far the first cut strays from its line, across the face.")
+      .number("first_cut_straight_every_m", &EndFixConfig::first_cut_straight_every, moreThan(0),
+              "Way after which it strays anew.")
       .number("stroke_sigma_m", &EndFixConfig::stroke_sigma, between(0, 10),
               "Of an advance, between two arrivals at an end.")
       .check(kValid);
