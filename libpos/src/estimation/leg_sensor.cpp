@@ -8,10 +8,11 @@ namespace pos::estimation {
 
 LegSensor plus(LegSensor sensor, const LegSensorTangent& d) {
   sensor.yaw += d[0];
-  sensor.scale += d[1];
-  sensor.offset += d[2];
-  sensor.angle_scale += d[3];
-  sensor.angle_curve += d[4];
+  sensor.pitch += d[1];
+  sensor.scale += d[2];
+  sensor.offset += d[3];
+  sensor.angle_scale += d[4];
+  sensor.angle_curve += d[5];
   return sensor;
 }
 
@@ -28,11 +29,14 @@ CorrectedLeg corrected(const Eigen::Vector3d& measured, const LegSensor& sensor)
   const Eigen::Vector2d out(c * before.x() - s * before.y(), s * before.x() + c * before.y());
   const Eigen::Vector2d across(-out.y(), out.x());
   leg.p.head<2>() = rho * out;
+  leg.p.z() -= sensor.pitch * leg.p.x();
   leg.by_errors.col(0).head<2>() = rho * across;
-  leg.by_errors.col(1).head<2>() = -rho / (1.0 + sensor.scale) * out;
-  leg.by_errors.col(2).head<2>() = -out / (1.0 + sensor.scale);
-  leg.by_errors.col(3).head<2>() = rho * u * across;
-  leg.by_errors.col(4).head<2>() = rho * u * u * across;
+  leg.by_errors.col(2).head<2>() = -rho / (1.0 + sensor.scale) * out;
+  leg.by_errors.col(3).head<2>() = -out / (1.0 + sensor.scale);
+  leg.by_errors.col(4).head<2>() = rho * u * across;
+  leg.by_errors.col(5).head<2>() = rho * u * u * across;
+  leg.by_errors.row(2) = -sensor.pitch * leg.by_errors.row(0);
+  leg.by_errors(2, 1) = -leg.p.x();
   return leg;
 }
 

@@ -52,6 +52,7 @@ SelectionConfig validated(SelectionConfig config) {
 
 ScannerStates validated(ScannerStates config) {
   requireNotNegative(config.mount_yaw_sigma, "mount_yaw_sigma_deg");
+  requireNotNegative(config.mount_pitch_sigma, "mount_pitch_sigma_deg");
   requireNotNegative(config.scale_sigma, "scale_sigma");
   requireNotNegative(config.offset_sigma, "offset_sigma_m");
   requireNotNegative(config.angle_scale_sigma, "angle_scale_sigma");
@@ -65,6 +66,8 @@ EndFixConfig validated(EndFixConfig config) {
   requireNotNegative(config.first_cut_height_sigma, "first_cut_height_sigma_m");
   requireFinite(config.first_cut_lateral, "first_cut_lateral_m");
   requireFinite(config.first_cut_height, "first_cut_height_m");
+  requireNotNegative(config.first_cut_straight_sigma, "first_cut_straight_sigma_m");
+  requirePositive(config.first_cut_straight_every, "first_cut_straight_every_m");
   requireNotNegative(config.stroke_sigma, "stroke_sigma_m");
   return config;
 }

@@ -9,6 +9,7 @@ namespace pos::estimation {
 namespace {
 
 constexpr int kFirstStop = -1000000;  // ids of stops: this, and one less for end 2
+constexpr double kUnknown = 1e4;      // m
 constexpr double kWatch = 0.04;       // s between looks at where in its cycle the shearer is
 
 int stopId(int end) {
@@ -45,7 +46,7 @@ void ShearerFilter::start(const ins::Earth& earth, const ins::NavigationState& n
   if (x.sensor_states) {
     const ScannerStates& s = config_.scanner;
     LegSensorTangent sigma;
-    sigma << s.mount_yaw_sigma, s.scale_sigma, s.offset_sigma, s.angle_scale_sigma, s.angle_curve_sigma;
+    sigma << s.mount_yaw_sigma, s.mount_pitch_sigma, s.scale_sigma, s.offset_sigma, s.angle_scale_sigma, s.angle_curve_sigma;
     belief_.covariance.diagonal().segment<LegSensor::kDof>(x.sensorRow()) = sigma.cwiseAbs2();
   }
   belief_.by_yaw.resize(0);
@@ -55,6 +56,7 @@ void ShearerFilter::start(const ins::Earth& earth, const ins::NavigationState& n
   progress_.start(station());
   last_ = {};
   unpropagated_ = unwatched_ = unaided_ = 0.0;
+  straight_at_ = station();
   swept_ = false;
   if (config_.end_fix.stroke_sigma > 0.0) (void)addStop(belief_, stopId(progress_.end() == 2 ? 1 : 2));
 }
@@ -92,27 +94,46 @@ FaceProgress::Event ShearerFilter::watchFace(double dt) {
   const double speed = along_.dot(belief_.mean.nav.v_n.head<2>());
   const FaceProgress::Event event = progress_.step(station(), speed, dt);
   if (event == FaceProgress::Event::Arrived) arrived();
+  alongFirstCut();
   return event;
 }
 
 void ShearerFilter::arrived() {
   catchUp();
   const int end = progress_.end();
-  const Eigen::Vector3d along(along_.x(), along_.y(), 0.0);
-  const Eigen::Vector3d right(along_.y(), -along_.x(), 0.0);
   const EndFixConfig& fix = config_.end_fix;
-  if (progress_.arrivals() == 1 && end == 2 && fix.first_cut_lateral_sigma > 0.0) {
-    const auto orUnknown = [](double sigma) { return square(sigma > 0.0 ? sigma : 1e4); };
-    const Eigen::Vector3d start = first_.coordinates;
-    const Eigen::Vector3d there = start + config_.face.length * along + fix.first_cut_lateral * right +
-                                  Eigen::Vector3d(0.0, 0.0, fix.first_cut_height);
-    const Eigen::Matrix3d R = orUnknown(fix.first_cut_lateral_sigma) * right * right.transpose() +
-                              orUnknown(fix.first_cut_along_sigma) * along * along.transpose() +
-                              orUnknown(fix.first_cut_height_sigma) * Eigen::Vector3d::UnitZ() *
-                                  Eigen::Vector3d::UnitZ().transpose();
-    correct(belief_, placeInnovation(belief_.mean, there), R, std::numeric_limits<double>::infinity());
+  const bool surveyed =
+      fix.first_cut_lateral_sigma + fix.first_cut_along_sigma + fix.first_cut_height_sigma > 0.0;
+  if (progress_.arrivals() == 1 && end == 2 && surveyed) {
+    fixPlace(Eigen::Vector3d(fix.first_cut_lateral, config_.face.length, fix.first_cut_height),
+             {fix.first_cut_lateral_sigma, fix.first_cut_along_sigma, fix.first_cut_height_sigma});
   }
   if (fix.stroke_sigma > 0.0) closeLoop(end);
+}
+
+/// The first cut runs along its line, within what it strays.
+void ShearerFilter::alongFirstCut() {
+  const EndFixConfig& fix = config_.end_fix;
+  const bool first = progress_.arrivals() == 0 && progress_.end() == 2;
+  if (!first || fix.first_cut_straight_sigma <= 0.0) return;
+  if (station() - straight_at_ < fix.first_cut_straight_every) return;
+  straight_at_ = station();
+  catchUp();
+  const double share = station() / config_.face.length;
+  fixPlace(Eigen::Vector3d(share * fix.first_cut_lateral, 0.0, 0.0), {fix.first_cut_straight_sigma, 0.0, 0.0});
+}
+
+/// `place` and `sigma`: right of the line from end 1, along it, above the start; m. Sigma 0: not known.
+void ShearerFilter::fixPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& sigma) {
+  const Eigen::Vector3d along(along_.x(), along_.y(), 0.0);
+  const Eigen::Vector3d right(along_.y(), -along_.x(), 0.0);
+  Eigen::Matrix3d axes;
+  axes << right, along, Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d variance =
+      (sigma.array() > 0.0).select(sigma.array().square(), square(kUnknown)).matrix();
+  const Eigen::Matrix3d R = axes * variance.asDiagonal() * axes.transpose();
+  correct(belief_, placeInnovation(belief_.mean, first_.coordinates + axes * place), R,
+          std::numeric_limits<double>::infinity());
 }
 
 /// Between two visits of an end the conveyor advanced twice, and crept along by what nobody says here.

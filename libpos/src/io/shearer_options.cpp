@@ -51,6 +51,17 @@ OptionTable<FaceConfig> faceOptions() {
       .check(kValid);
 }
 
+OptionTable<lidar::ScannerCalibration> calibrationOptions() {
+  using Calibration = lidar::ScannerCalibration;
+  return OptionTable<Calibration>("calibration", "Errors of the scanner to be taken out of its sweeps.")
+      .number("a1", &Calibration::a1, anything(), "True angle = a1 m^2 + a2 m + a3 of a measured m, in deg.")
+      .number("a2", &Calibration::a2, anything(), "The same.")
+      .number("a3", &Calibration::a3, anything(), "The same.")
+      .number("scale", &Calibration::scale, between(-0.5, 0.5), "Measured range = (1 + scale) true + offset.")
+      .number("offset_m", &Calibration::offset, between(-10, 10), "The same.")
+      .check(kValid);
+}
+
 OptionTable<LegsConfig> legsOptions() {
   return OptionTable<LegsConfig>("legs", "The supports' legs and how the scanner sees them.")
       .text("sensor", &LegsConfig::sensor, "Label of the scanner.")
@@ -63,6 +74,8 @@ OptionTable<LegsConfig> legsOptions() {
               "A leg further from where one is expected is another one.")
       .number("diameter_m", &LegsConfig::diameter, moreThan(0), "Of a leg.")
       .number("range_sigma_m", &LegsConfig::range_sigma, moreThan(0), "Of one beam of a sweep.")
+      .table("calibration", &LegsConfig::calibration, calibrationOptions(),
+             "Errors of the scanner, known; without it sweeps are taken as they are.")
       .numbers("sigma_m", &LegsConfig::sigma, moreThan(0),
                "Of a leg in scanner axes: along, across, up. For sweeps the first two come from the fit.")
       .number("confidence", &LegsConfig::confidence, between(0.5, 0.999999),
@@ -100,6 +113,8 @@ OptionTable<ScannerStates> scannerStateOptions() {
   return OptionTable<ScannerStates>("scanner", "Errors of scanner and mount as states.")
       .flag("states", &ScannerStates::use, "Whether they are estimated.")
       .number("mount_yaw_sigma_deg", &ScannerStates::mount_yaw_sigma, between(0, 10), "Yaw of the mount.")
+      .number("mount_pitch_sigma_deg", &ScannerStates::mount_pitch_sigma, between(0, 10),
+              "Pitch of the mount.")
       .number("scale_sigma", &ScannerStates::scale_sigma, between(0, 0.1), "Scale of ranges.")
       .number("offset_sigma_m", &ScannerStates::offset_sigma, between(0, 1), "Offset of ranges.")
       .number("angle_scale_sigma", &ScannerStates::angle_scale_sigma, between(0, 0.1), "Scale of angles.")
@@ -119,6 +134,10 @@ OptionTable<EndFixConfig> endFixOptions() {
       .number("first_cut_lateral_m", &EndFixConfig::first_cut_lateral, between(-100, 100),
               "Right of the line from end 1 along the heading.")
       .number("first_cut_height_m", &EndFixConfig::first_cut_height, between(-100, 100), "Above end 1.")
+      .number("first_cut_straight_sigma_m", &EndFixConfig::first_cut_straight_sigma, between(0, 10),
+              "How far the first cut strays from its line, across the face.")
+      .number("first_cut_straight_every_m", &EndFixConfig::first_cut_straight_every, moreThan(0),
+              "Way after which it strays anew.")
       .number("stroke_sigma_m", &EndFixConfig::stroke_sigma, between(0, 10),
               "Of an advance, between two arrivals at an end.")
       .check(kValid);

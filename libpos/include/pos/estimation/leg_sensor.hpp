@@ -7,10 +7,12 @@
 namespace pos::estimation {
 
 /// rho = (rho~ - offset) / (1 + scale), theta = theta~ + yaw + angle_scale u + angle_curve u^2 with
-/// u = theta~ - pi/2, rad. The yaw is that of the mount and the polynomial's constant in one.
+/// u = theta~ - pi/2, rad. The yaw is that of the mount and the polynomial's constant in one. The pitch turns
+/// the scan plane about the scanner's y axis.
 struct LegSensor {
-  static constexpr int kDof = 5;
+  static constexpr int kDof = 6;
   double yaw = 0.0;
+  double pitch = 0.0;  ///< of the mount, nose down: a leg ahead stands lower than it seems
   double scale = 0.0;
   double offset = 0.0;  ///< m
   double angle_scale = 0.0;

@@ -9,6 +9,7 @@
 
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
+#include "pos/lidar/angle_calibration.hpp"
 
 namespace pos::estimation {
 
@@ -49,13 +50,14 @@ struct LegsConfig {
   double lateral = 4.0;                             ///< m, to the left of the conveyor's line
   double lateral_gate =
       1.6;  ///< m: an advance, which the S-bend of an end operation puts between the two, and 0.6
-  double association_gate = 0.5;            ///< m, and from where a known leg is expected
-  double diameter = 0.30;                   ///< m
-  double range_sigma = 0.01;                ///< m, of one beam; sweeps only
-  Eigen::Vector3d sigma{0.01, 0.01, 0.02};  ///< m, of a leg in scanner axes: along, across, up
-  double confidence = 0.999;                ///< of the chi-square gate
-  int rejections = 5;                       ///< in a row: the leg is dropped and found anew
-  double degraded_after = 20.0;             ///< s without any leg
+  double association_gate = 0.5;               ///< m, and from where a known leg is expected
+  double diameter = 0.30;                      ///< m
+  double range_sigma = 0.01;                   ///< m, of one beam; sweeps only
+  lidar::ScannerCalibration calibration = {};  ///< taken out of sweeps; the default leaves them raw
+  Eigen::Vector3d sigma{0.01, 0.01, 0.02};     ///< m, of a leg in scanner axes: along, across, up
+  double confidence = 0.999;                   ///< of the chi-square gate
+  int rejections = 5;                          ///< in a row: the leg is dropped and found anew
+  double degraded_after = 20.0;                ///< s without any leg
 
   bool operator==(const LegsConfig&) const = default;
 };
@@ -87,6 +89,7 @@ struct PicmConfig {
 struct ScannerStates {
   bool use = false;
   double mount_yaw_sigma = 8.727e-3;  ///< rad (0.5 deg)
+  double mount_pitch_sigma = 8.727e-4;  ///< rad (3 arc minutes)
   double scale_sigma = 1e-3;          ///< -
   double offset_sigma = 0.05;         ///< m
   double angle_scale_sigma = 0.01;    ///< rad per rad off the middle of the scan
@@ -103,6 +106,8 @@ struct EndFixConfig {
   double first_cut_height_sigma = 0.0;   ///< m
   double first_cut_lateral = 0.0;        ///< m right of the line from end 1 along the heading
   double first_cut_height = 0.0;         ///< m above end 1
+  double first_cut_straight_sigma = 0.0;  ///< m, across the face: how far the first cut strays from its line
+  double first_cut_straight_every = 20.0;  ///< m of way after which it strays anew
   double stroke_sigma = 0.0;             ///< m, of an advance
 
   bool operator==(const EndFixConfig&) const = default;

@@ -55,6 +55,8 @@ class ShearerFilter {
   ins::ImuIncrement corrected(const ins::ImuIncrement& raw) const;
   FaceProgress::Event watchFace(double dt);
   void arrived();
+  void alongFirstCut();
+  void fixPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& sigma);
   void closeLoop(int end);
   void dropOutOfSight();
   LegReport update(int index, const LegSight& sight);
@@ -77,6 +79,7 @@ class ShearerFilter {
   double unpropagated_ = 0.0;
   double unwatched_ = 0.0;
   double unaided_ = 0.0;
+  double straight_at_ = 0.0;  // m along the face: where the first cut was last said to be straight
   bool swept_ = false;  // legs out of sight dropped since the last increment
 };
 

@@ -2,7 +2,7 @@
 /// State and models of the inertial filter with support legs (docs/math/shearer.md). Memory is fixed: no call
 /// here allocates.
 ///
-/// Tangent [phi, v, p, gyro bias, accelerometer bias, scanner (0 or 5), leg 1, leg 2, ...]; truth = state (+)
+/// Tangent [phi, v, p, gyro bias, accelerometer bias, scanner (0 or 6), leg 1, leg 2, ...]; truth = state (+)
 /// tangent with C <- Exp(phi) C in n, everything else added; m, m/s, rad in n (the map's axes).
 
 #include <Eigen/Core>
