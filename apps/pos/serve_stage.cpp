@@ -1,7 +1,10 @@
 #include "serve_stage.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "pos/estimation/factory.hpp"
 #include "pos/eval/association.hpp"
 #include "pos/serve/request.hpp"
 

@@ -126,14 +126,18 @@ std::string EventStream::next(const std::string& name, int timeout_ms) {
   }
 }
 
-int EventStream::arrived(const std::string& name) {
+EventStream::Arrived EventStream::arrived() {
   while (receive(0)) continue;
-  int count = 0;
-  const std::string head = "event: " + name + "\n";
-  for (std::size_t at = buffer_.find(head); at != std::string::npos; at = buffer_.find(head, at + 1)) ++count;
-  const std::size_t whole = buffer_.rfind("\n\n");
-  if (whole != std::string::npos) buffer_.erase(0, whole);
-  return count;
+  const std::size_t end = buffer_.rfind("\n\n");
+  if (end == std::string::npos) return {};
+  const std::string whole = buffer_.substr(0, end + 2);
+  buffer_.erase(0, end + 2);
+  const auto count = [&](const std::string& head) {
+    int n = 0;
+    for (std::size_t at = whole.find(head); at != std::string::npos; at = whole.find(head, at + 1)) ++n;
+    return n;
+  };
+  return {count("event: heartbeat\n"), count("event: state\n")};
 }
 
 Sender::Sender(int port) : socket_(connected(port)) {}
