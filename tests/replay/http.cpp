@@ -132,12 +132,14 @@ EventStream::Arrived EventStream::arrived() {
   if (end == std::string::npos) return {};
   const std::string whole = buffer_.substr(0, end + 2);
   buffer_.erase(0, end + 2);
-  const auto count = [&](const std::string& head) {
-    int n = 0;
-    for (std::size_t at = whole.find(head); at != std::string::npos; at = whole.find(head, at + 1)) ++n;
-    return n;
-  };
-  return {count("event: heartbeat\n"), count("event: state\n")};
+  Arrived arrived;
+  const std::string beat = "event: heartbeat\ndata: {\"n\":";
+  for (std::size_t at = whole.find(beat); at != std::string::npos; at = whole.find(beat, at + 1))
+    arrived.heartbeats.push_back(std::stoi(whole.substr(at + beat.size(), 12)));
+  for (std::size_t at = whole.find("event: state\n"); at != std::string::npos;
+       at = whole.find("event: state\n", at + 1))
+    ++arrived.states;
+  return arrived;
 }
 
 Sender::Sender(int port) : socket_(connected(port)) {}

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace pos::replay {
 
@@ -33,7 +34,7 @@ class EventStream {
   /// Data of the next event of this name; empty when none comes within `timeout_ms` or the stream ends.
   std::string next(const std::string& name, int timeout_ms = 20'000);
   struct Arrived {
-    int heartbeats = 0;
+    std::vector<int> heartbeats = {};  ///< their numbers
     int states = 0;
   };
   /// Takes the whole events that have come so far and counts them, without waiting.

@@ -103,7 +103,8 @@ class Serve : public ::testing::Test {
   /// Waits for an event of this kind.
   static void expectEvent(int port, const std::string& kind) {
     for (int i = 0; i < 2000; ++i) {
-      for (const json& event : jsonOf(get(port, "/api/events")).at("events"))
+      const json told = jsonOf(get(port, "/api/events"));
+      for (const json& event : told.at("events"))
         if (event.at("kind") == kind) return;
       usleep(10'000);
     }
