@@ -96,8 +96,10 @@ void Ticker::run() {
   for (std::uint64_t beats = 0; !stopping_;) {
     tellEvents();
     const std::string text = state();
-    if (seq_ != published_) hub_.publish("state", text);
-    published_ = seq_;
+    if (const std::uint64_t seq = seq_; seq != published_) {
+      hub_.publish("state", text);
+      published_ = seq;
+    }
     if (clock_() - beaten >= kHeartbeat) {
       beaten += kHeartbeat;
       hub_.publish("heartbeat", "{\"n\":" + std::to_string(beats++) + "}");

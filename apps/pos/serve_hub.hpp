@@ -64,9 +64,9 @@ class Ticker {
   Session& session_;
   Hub& hub_;
   Clock clock_;
-  std::mutex mutex_;  // of the two below
+  std::mutex mutex_;  // of the text below and its number
   std::string body_;
-  std::uint64_t seq_ = 0;
+  std::atomic<std::uint64_t> seq_{0};
   std::uint64_t published_ = 0;
   std::uint64_t events_ = 0;
   std::uint64_t resets_ = 0;

@@ -1,14 +1,15 @@
 #include "serve_stage.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "pos/estimation/factory.hpp"
 #include "pos/eval/association.hpp"
 #include "pos/serve/request.hpp"
 
 namespace pos::app {
 namespace {
-
-constexpr Duration kTruthGap = std::chrono::seconds(1);
 
 using Json = nlohmann::ordered_json;
 
@@ -19,7 +20,7 @@ Json secondsOrNull(const std::optional<Stamp>& stamp) {
 }  // namespace
 
 std::optional<Pose3> Reference::at(Stamp stamp) const {
-  return eval::interpolate(truth_, stamp, kTruthGap);
+  return eval::interpolate(truth_, stamp, max_gap_);
 }
 
 void Reference::compare(serve::TrackRow& row) const {
@@ -38,7 +39,8 @@ Scenery sceneryOf(const Inputs& inputs, serve::Mode mode) {
     scenery.network = ground->scene.network;
     scenery.names.intervals = ground->scene.intervals;
   }
-  if (inputs.truth && !inputs.truth->poses.empty()) scenery.reference.emplace(*inputs.truth);
+  if (inputs.truth && !inputs.truth->poses.empty())
+    scenery.reference.emplace(*inputs.truth, durationFromSeconds(inputs.config.evaluation.max_gap));
   scenery.intervals = inputs.config.intervals.has_value();
   return scenery;
 }

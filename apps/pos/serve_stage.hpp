@@ -20,13 +20,16 @@ namespace pos::app {
 /// Truth, and which way it moves.
 class Reference {
  public:
-  explicit Reference(const Truth& truth) : truth_(truth), tangent_(truth) {}
+  /// Truth is not interpolated over more than `max_gap`.
+  Reference(const Truth& truth, Duration max_gap)
+      : truth_(truth), max_gap_(max_gap), tangent_(truth, {.max_truth_gap = max_gap}) {}
   const Truth& truth() const { return truth_; }
   std::optional<Pose3> at(Stamp stamp) const;
   void compare(serve::TrackRow& row) const;
 
  private:
   Truth truth_;
+  Duration max_gap_;
   eval::PathTangent tangent_;
 };
 

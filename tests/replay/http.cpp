@@ -126,14 +126,20 @@ std::string EventStream::next(const std::string& name, int timeout_ms) {
   }
 }
 
-int EventStream::arrived(const std::string& name) {
+EventStream::Arrived EventStream::arrived() {
   while (receive(0)) continue;
-  int count = 0;
-  const std::string head = "event: " + name + "\n";
-  for (std::size_t at = buffer_.find(head); at != std::string::npos; at = buffer_.find(head, at + 1)) ++count;
-  const std::size_t whole = buffer_.rfind("\n\n");
-  if (whole != std::string::npos) buffer_.erase(0, whole);
-  return count;
+  const std::size_t end = buffer_.rfind("\n\n");
+  if (end == std::string::npos) return {};
+  const std::string whole = buffer_.substr(0, end + 2);
+  buffer_.erase(0, end + 2);
+  Arrived arrived;
+  const std::string beat = "event: heartbeat\ndata: {\"n\":";
+  for (std::size_t at = whole.find(beat); at != std::string::npos; at = whole.find(beat, at + 1))
+    arrived.heartbeats.push_back(std::stoi(whole.substr(at + beat.size(), 12)));
+  for (std::size_t at = whole.find("event: state\n"); at != std::string::npos;
+       at = whole.find("event: state\n", at + 1))
+    ++arrived.states;
+  return arrived;
 }
 
 Sender::Sender(int port) : socket_(connected(port)) {}

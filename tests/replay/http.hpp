@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace pos::replay {
 
@@ -32,8 +33,12 @@ class EventStream {
 
   /// Data of the next event of this name; empty when none comes within `timeout_ms` or the stream ends.
   std::string next(const std::string& name, int timeout_ms = 20'000);
-  /// Takes what has come so far and counts the events of this name in it, without waiting.
-  int arrived(const std::string& name);
+  struct Arrived {
+    std::vector<int> heartbeats = {};  ///< their numbers
+    int states = 0;
+  };
+  /// Takes the whole events that have come so far and counts them, without waiting.
+  Arrived arrived();
 
  private:
   bool receive(int timeout_ms);

@@ -17,7 +17,7 @@ Measurement measurementFrom(std::string_view line, const std::string& name, int 
 /// The sensor that a line names, be the rest as it may; empty where it names none.
 std::string sensorNamedBy(std::string_view line);
 
-/// The line that measurementFrom reads back to the same measurement, without the line break.
+/// The line, without its end, that measurementFrom reads back (rotations but for their last bit).
 std::string jsonLine(const Measurement& measurement);
 
 /// Cuts a stream of bytes, however it arrives, into lines.
