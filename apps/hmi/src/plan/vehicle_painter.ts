@@ -1,7 +1,6 @@
 /** Draws where an estimator says the vehicle is: covariance ellipse, body, direction, name. */
 
 import type { EstimatorNow, Pose } from '../protocol/messages';
-import type { Pen } from './canvas_layer';
 import type { Window } from './track_painter';
 
 const kTwoAxes95 = Math.sqrt(5.991); // chi-square quantile, 95 %, 2 degrees of freedom
@@ -14,7 +13,7 @@ export interface VehicleStyle {
   main: boolean;
 }
 
-export function paintVehicle(context: Pen, window: Window, now: EstimatorNow, style: VehicleStyle): void {
+export function paintVehicle(context: CanvasRenderingContext2D, window: Window, now: EstimatorNow, style: VehicleStyle): void {
   if (!now.pose) return;
   const { x, y } = pixel(window, now.pose);
   context.save();
@@ -24,7 +23,7 @@ export function paintVehicle(context: Pen, window: Window, now: EstimatorNow, st
   context.restore();
 }
 
-export function paintTruth(context: Pen, window: Window, pose: Pose, colour: string): void {
+export function paintTruth(context: CanvasRenderingContext2D, window: Window, pose: Pose, colour: string): void {
   const { x, y } = pixel(window, pose);
   context.save();
   context.strokeStyle = colour;
@@ -43,7 +42,7 @@ function pixel(window: Window, pose: Pose): { x: number; y: number } {
 }
 
 function paintEllipse(
-  context: Pen,
+  context: CanvasRenderingContext2D,
   window: Window,
   ellipse: NonNullable<EstimatorNow['ellipse']>,
   colour: string,
@@ -63,7 +62,7 @@ function paintEllipse(
 }
 
 /** A box with a pointed nose; a circle where the heading is not known. */
-function paintBody(context: Pen, window: Window, yaw: number | null, style: VehicleStyle): void {
+function paintBody(context: CanvasRenderingContext2D, window: Window, yaw: number | null, style: VehicleStyle): void {
   const length = Math.max(style.main ? 22 : 16, kLength / window.resolution) / 2;
   const width = Math.max(style.main ? 11 : 8, kWidth / window.resolution) / 2;
   context.fillStyle = style.colour;
