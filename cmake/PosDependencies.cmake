@@ -8,6 +8,7 @@ find_package(nlohmann_json 3.11 REQUIRED)                             # nlohmann
 find_package(CLI11 2.1 REQUIRED)                                      # libcli11-dev
 find_package(ZLIB REQUIRED)                                           # zlib1g-dev (libmrpt-obs-dev brings it)
 find_package(TBB 2021.8 REQUIRED)                                     # libtbb-dev
+include(PosHttplib)                                                   # libcpp-httplib-dev
 find_package(mrpt-obs 2.5 REQUIRED)                                   # libmrpt-obs-dev
 find_package(mrpt-maps 2.5 REQUIRED)                                  # libmrpt-maps-dev
 find_package(mrpt-slam 2.5 REQUIRED)                                  # libmrpt-slam-dev

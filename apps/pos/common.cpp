@@ -29,6 +29,10 @@ void print(const std::string& text) {
   std::cout << text;
 }
 
+void flushOutput() {
+  std::cout.flush();
+}
+
 void writeFile(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file << text;

@@ -33,6 +33,8 @@ void addVoice(CLI::App& verb, Voice& voice);
 
 /// Writes to standard output.
 void print(const std::string& text);
+/// What was printed so far reaches whoever waits for it.
+void flushOutput();
 /// Writes a whole file; throws DataError when the disk takes no more.
 void writeFile(const std::filesystem::path& path, const std::string& text);
 
@@ -60,6 +62,7 @@ void addReport(const Verbs& verbs);
 void addSimulate(const Verbs& verbs);
 void addMap(const Verbs& verbs);
 void addLocks(const Verbs& verbs);
+void addServe(const Verbs& verbs);
 void addVersion(const Verbs& verbs);
 
 }  // namespace pos::app

@@ -177,6 +177,10 @@ void spellOutStarts(Inputs& inputs) {
 
 void addInputs(CLI::App& verb, InputOptions& options) {
   verb.add_option("config", options.config, "Configuration file (YAML)")->required();
+  addInputChoices(verb, options);
+}
+
+void addInputChoices(CLI::App& verb, InputOptions& options) {
   verb.add_option("--log", options.log, "Rawlog to replay, instead of the configuration's");
   verb.add_option("--map", options.map, "Map, instead of the configuration's");
   verb.add_option("--truth", options.truth, "Reference poses, instead of the configuration's");

@@ -30,6 +30,8 @@ struct InputOptions {
 };
 
 void addInputs(CLI::App& verb, InputOptions& options);
+/// The same without the configuration itself, which a verb may name in its own way.
+void addInputChoices(CLI::App& verb, InputOptions& options);
 
 /// Everything loaded and checked. `config` is resolved: absolute paths, the command line's choices, starts
 /// taken from the truth spelt out.

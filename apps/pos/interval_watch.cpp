@@ -39,10 +39,15 @@ void IntervalWatch::openFile(const io::RunFolder& folder) {
   file_.emplace(folder.intervalsCsv(estimator_), ground_->scene.network.map(), ground_->scene.intervals);
 }
 
-void IntervalWatch::take(const Estimate& estimate) {
+void IntervalWatch::flush() {
+  if (file_) file_->flush();
+}
+
+std::optional<interval::IntervalBelief> IntervalWatch::take(const Estimate& estimate) {
   const auto P = estimate.planarCovariance();
-  if (!P.allFinite() || P(0, 0) + P(1, 1) <= 0.0) return;  // without a covariance nothing can be said
-  const interval::IntervalBelief belief = tracker_.take(estimate);
+  if (!P.allFinite() || P(0, 0) + P(1, 1) <= 0.0)
+    return std::nullopt;  // without a covariance nothing can be said
+  interval::IntervalBelief belief = tracker_.take(estimate);
   eval::IntervalSample sample{
       .stamp = estimate.stamp,
       .matched = belief.state != interval::MatchState::Waiting && belief.state != interval::MatchState::Lost,
@@ -50,18 +55,20 @@ void IntervalWatch::take(const Estimate& estimate) {
       .along_sigma = belief.along_sigma,
       .named = belief.atLeast(kNamed)};
   if (belief.next) sample.boundary_in = belief.next->seconds;
-  record_.samples.push_back(std::move(sample));
+  if (keep_) record_.samples.push_back(std::move(sample));
   for (const interval::IntervalEvent& event : tracker_.events()) note(event);
   if (use_ == io::PassageUse::Checked) {
     for (const std::string& chamber : passages_.missed(tracker_.road()))
       lines_.push_back({estimate.stamp, estimator_, "passage_missed", "", chamber});
   }
   if (file_) file_->write(belief);
+  return belief;
 }
 
 void IntervalWatch::note(const interval::IntervalEvent& event) {
   using Kind = interval::IntervalEvent::Kind;
   lines_.push_back(io::runEvent(event, estimator_, ground_->scene.intervals));
+  if (!keep_) return;
   if (event.kind == Kind::Entry) {
     ++record_.entries;
     record_.visits.push_back({event.interval, event.at, event.at_sigma, {}});

@@ -31,8 +31,12 @@ class IntervalWatch {
                 std::string estimator);
 
   void openFile(const io::RunFolder& folder);
-  /// Takes what the estimator says after the last measurement of a stamp.
-  void take(const Estimate& estimate);
+  /// Takes what the estimator says after the last measurement of a stamp; what the tracker makes of it, where
+  /// there is a covariance.
+  std::optional<interval::IntervalBelief> take(const Estimate& estimate);
+  /// From now on the record for the evaluation stays empty.
+  void keepNothing() { keep_ = false; }
+  void flush();
   /// A fix for the estimator, when it is time for one and it is to be aided.
   std::optional<Measurement> offered(const Estimate& estimate);
   /// The estimator takes no such fixes.
@@ -57,6 +61,7 @@ class IntervalWatch {
   interval::RoadAid aid_;
   interval::PassageCheck passages_;
   bool aiding_ = false;
+  bool keep_ = true;
   io::PassageUse use_ = io::PassageUse::AsTold;
   std::optional<io::IntervalsCsvWriter> file_;
   eval::IntervalRecord record_;

@@ -99,6 +99,7 @@ int run(int argc, char** argv) {
   pos::app::addConfig(verbs);
   pos::app::addReport(verbs);
   pos::app::addSimulate(verbs);
+  pos::app::addServe(verbs);
   pos::app::addVersion(verbs);
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verb->group("Verbs");
   app.footer(

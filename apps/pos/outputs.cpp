@@ -55,8 +55,12 @@ std::optional<io::RunFolder> openRunFolder(const OutputOptions& options) {
                                options.force ? io::ExistingRun::Replace : io::ExistingRun::Refuse);
 }
 
-void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
+void writeRunJson(const io::RunFolder& folder, const Inputs& inputs) {
   writeFile(folder.runJson(), runJson(inputs));
+}
+
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
+  writeRunJson(folder, inputs);
   writeFile(folder.summaryJson(), report::summaryJson(summary));
   writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
   const fs::path figures = folder.path() / "figures";

@@ -25,6 +25,8 @@ void addOutputs(CLI::App& verb, OutputOptions& options);
 /// The run folder asked for with --out, if any.
 std::optional<io::RunFolder> openRunFolder(const OutputOptions& options);
 
+/// run.json alone: what went in, for a run whose results are judged later.
+void writeRunJson(const io::RunFolder& folder, const Inputs& inputs);
 /// run.json, summary.json, report.html and the figures.
 void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary);
 

@@ -30,6 +30,18 @@ void Recorder::watchIntervals(std::shared_ptr<const IntervalGround> ground,
   watch_ = std::make_unique<IntervalWatch>(std::move(ground), config, name());
 }
 
+void Recorder::tell(RecorderEars ears) {
+  ears_ = std::move(ears);
+  if (watch_) watch_->keepNothing();
+}
+
+void Recorder::flush() {
+  if (watch_) watch_->flush();
+  if (!files_) return;
+  files_->tum.flush();
+  files_->csv.flush();
+}
+
 IngestReport Recorder::take(const Measurement& measurement) {
   const io::PassageUse use = watch_ ? watch_->useOf(measurement) : io::PassageUse::AsTold;
   if (use == io::PassageUse::AsTold) return ingest(measurement);
@@ -48,7 +60,7 @@ IngestReport Recorder::ingest(const Measurement& measurement) {
   const auto before = std::chrono::steady_clock::now();
   const IngestReport report = estimator_->ingest(measurement);
   const auto spent = std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - before);
-  if (report.verdict != Verdict::Unsupported)
+  if (report.verdict != Verdict::Unsupported && !ears_)
     record_.compute.add(spent);  // what it has no use for would flatter it
   note(measurement, report);
   return report;
@@ -61,24 +73,27 @@ void Recorder::withhold(const Measurement& measurement, std::string_view reason)
 void Recorder::note(const Measurement& measurement, const IngestReport& report) {
   const auto anchor = anchorOf(measurement);
   record_.verdicts.add(measurement.sensor, anchor, report);
-  if (anchor) record_.residuals.add(*anchor, measurement.stamp, report);
+  if (ears_) ears_->verdict(measurement, report);
+  if (anchor && !ears_) record_.residuals.add(*anchor, measurement.stamp, report);
   if (record_.nis) record_.nis->add(measurement.stamp, report);
   if (!report.event.empty()) ++record_.events[std::string(report.event)];
   ++epoch_[static_cast<std::size_t>(report.verdict)];
 }
 
 void Recorder::endEpoch(Stamp stamp) {
-  if (!record_.estimates.empty() && stamp - record_.estimates.back().stamp < shortest_step_) return;
+  if (last_ && stamp - *last_ < shortest_step_) return;
   const auto estimate = estimator_->estimateAt(stamp);
   if (!estimate) return;
-  record_.estimates.push_back(*estimate);
+  last_ = estimate->stamp;
+  if (!ears_) record_.estimates.push_back(*estimate);
   if (files_) {
     files_->tum.write(*estimate);
     files_->csv.write(*estimate, epoch_);
   }
   epoch_ = {};
+  const auto belief = watch_ ? watch_->take(*estimate) : std::nullopt;
+  if (ears_) ears_->estimate(*estimate, belief);
   if (!watch_) return;
-  watch_->take(*estimate);
   const auto fix = watch_->offered(*estimate);
   if (fix && ingest(*fix).verdict == Verdict::Unsupported) watch_->stopOffering();
 }

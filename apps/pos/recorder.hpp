@@ -1,7 +1,9 @@
 #pragma once
 /// Keeps what one estimator said during a replay: on disk as it goes, and in memory for the evaluation.
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "interval_watch.hpp"
@@ -15,6 +17,12 @@ namespace pos::app {
 struct RecorderFiles {
   io::TumWriter tum;
   io::EstimateCsvWriter csv;
+};
+
+/// Who wants to know at once what an estimator said.
+struct RecorderEars {
+  std::function<void(const Measurement&, const IngestReport&)> verdict;
+  std::function<void(const Estimate&, const std::optional<interval::IntervalBelief>&)> estimate;
 };
 
 /// One estimator with its record. Estimates are recorded after the last measurement of a stamp, at most
@@ -31,6 +39,8 @@ class Recorder {
   /// Also says in which lock intervals the vehicle is, and aids the estimator as configured; before
   /// openFiles.
   void watchIntervals(std::shared_ptr<const IntervalGround> ground, const io::IntervalsConfig& config);
+  /// From now on `ears` are told, and nothing is kept in memory: a live feed has no end.
+  void tell(RecorderEars ears);
   /// Gives the measurement to the estimator and notes verdict and time spent; returns what the estimator
   /// said.
   IngestReport take(const Measurement& measurement);
@@ -40,10 +50,14 @@ class Recorder {
   void endEpoch(Stamp stamp);
   /// What the watch over intervals has to tell since the last call.
   std::vector<io::RunEvent> takeEvents();
+  /// What is in the files so far goes to the disk.
+  void flush();
+  Diagnostics diagnostics() const { return estimator_->diagnostics(); }
   /// Closes the files and hands out the record.
   eval::EstimatorRecord finish();
 
   const std::string& name() const { return record_.name; }
+  const std::string& type() const { return record_.type; }
 
  private:
   IngestReport ingest(const Measurement& measurement);
@@ -53,6 +67,8 @@ class Recorder {
   eval::EstimatorRecord record_;
   std::unique_ptr<RecorderFiles> files_;
   std::unique_ptr<IntervalWatch> watch_;
+  std::optional<RecorderEars> ears_;
+  std::optional<Stamp> last_;  ///< of the estimate recorded last
   Duration shortest_step_{};
   io::EpochVerdicts epoch_{};
 };

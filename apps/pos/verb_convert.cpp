@@ -1,5 +1,6 @@
 /// `pos convert`: from other people's files into ours, and out again.
 
+#include <functional>
 #include <memory>
 
 #include "common.hpp"
@@ -7,6 +8,7 @@
 #include "pos/io/beacon_map_io.hpp"
 #include "pos/io/csv_import.hpp"
 #include "pos/io/grid_io.hpp"
+#include "pos/io/json_lines.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/rawlog_writer.hpp"
@@ -55,17 +57,37 @@ ExitCode convertCsv(const CsvOptions& options, const Voice& voice) {
   return ExitCode::Ok;
 }
 
+/// Where measurements go, by the name of the file: JSON lines (*.jsonl, - for standard output) or a rawlog.
+using Sink = std::function<void(const Measurement&)>;
+
+std::uint64_t copied(io::RawlogReader& reader, const Sink& sink) {
+  std::uint64_t count = 0;
+  for (; auto measurement = reader.next(); ++count) sink(*measurement);
+  return count;
+}
+
+std::uint64_t copied(io::RawlogReader& reader, const std::string& out) {
+  if (out == "-") return copied(reader, [](const Measurement& m) { print(io::jsonLine(m) + "\n"); });
+  if (out.ends_with(".jsonl")) {
+    io::LineWriter lines(out);
+    const std::uint64_t count = copied(reader, [&](const Measurement& m) { lines.write(io::jsonLine(m)); });
+    lines.close();
+    return count;
+  }
+  io::RawlogWriter writer(out);
+  const std::uint64_t count = copied(reader, [&](const Measurement& m) { writer.write(m); });
+  writer.close();
+  return count;
+}
+
 ExitCode convertLog(const std::string& in, const std::string& out, const Voice& voice) {
   io::RawlogReader reader(in);
-  io::RawlogWriter writer(out);
-  std::uint64_t count = 0;
-  for (; auto measurement = reader.next(); ++count) writer.write(*measurement);
-  writer.close();
+  const std::uint64_t count = copied(reader, out);
   for (const auto& [what, n] : reader.skipped())
     voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);
   for (const auto& [what, n] : reader.refused())
     voice.warn("not converted: " + std::to_string(n) + " x " + what);
-  voice.say(std::to_string(count) + " measurements written to " + out);
+  voice.say(std::to_string(count) + " measurements written" + (out == "-" ? "" : " to " + out));
   if (reader.end().damaged) voice.warn("the source is damaged: " + reader.end().message);
   return reader.end().damaged ? ExitCode::Data : ExitCode::Ok;
 }
@@ -150,8 +172,9 @@ void addConvert(const Verbs& verbs) {
   verb->require_subcommand(1);
   addCsv(*verb, verbs);
 
-  CLI::App* log = verb->add_subcommand("log", "Any rawlog into an observation-only rawlog");
-  const auto logs = addInOut(*log, "Rawlog to read", "Rawlog to write");
+  CLI::App* log = verb->add_subcommand("log", "Any rawlog into an observation-only rawlog or JSON lines");
+  const auto logs =
+      addInOut(*log, "Rawlog to read", "Rawlog to write; *.jsonl, or - for standard output: JSON lines");
   addVoice(*log, *verbs.voice);
   log->callback([logs, verbs] { *verbs.code = convertLog(logs->in, logs->out, *verbs.voice); });
 

@@ -105,6 +105,11 @@ void LineWriter::write(const std::string& line) {
   check();
 }
 
+void LineWriter::flush() {
+  file_.flush();
+  check();
+}
+
 void LineWriter::close() {
   file_.close();
   check();

@@ -17,6 +17,7 @@ class IntervalsCsvWriter {
   IntervalsCsvWriter(const std::filesystem::path& path, const map::TunnelMap& map,
                      const std::vector<map::LockInterval>& intervals);
   void write(const interval::IntervalBelief& belief);
+  void flush() { lines_.flush(); }
   void close() { lines_.close(); }
 
  private:

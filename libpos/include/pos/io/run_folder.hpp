@@ -57,6 +57,7 @@ class EventsCsvWriter {
  public:
   explicit EventsCsvWriter(const std::filesystem::path& path);
   void write(const RunEvent& event);
+  void flush() { lines_.flush(); }
   void close() { lines_.close(); }
 
  private:

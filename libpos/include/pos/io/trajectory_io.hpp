@@ -41,6 +41,8 @@ class LineWriter {
  public:
   explicit LineWriter(const std::filesystem::path& path);
   void write(const std::string& line);
+  /// What is written so far reaches the file even when the program is killed.
+  void flush();
   void close();
 
  private:
@@ -53,6 +55,7 @@ class TumWriter {
  public:
   explicit TumWriter(const std::filesystem::path& path);
   void write(const Estimate& estimate);
+  void flush() { lines_.flush(); }
   void close() { lines_.close(); }
 
  private:
@@ -65,6 +68,7 @@ class TumCovarianceWriter {
  public:
   explicit TumCovarianceWriter(const std::filesystem::path& path);
   void write(const Estimate& estimate);
+  void flush() { lines_.flush(); }
   void close() { lines_.close(); }
 
  private:
@@ -78,6 +82,7 @@ class EstimateCsvWriter {
  public:
   explicit EstimateCsvWriter(const std::filesystem::path& path);
   void write(const Estimate& estimate, const EpochVerdicts& verdicts);
+  void flush() { lines_.flush(); }
   void close() { lines_.close(); }
 
  private:
