@@ -9,7 +9,7 @@ import { lineOf, mainEstimator, trackNames, type Context } from '../model/contex
 import { extentOf } from '../model/mine';
 import type { Track } from '../model/track';
 import { lowerBound } from '../model/levels';
-import { fit, planeMap } from './base_map';
+import { fit, planeMap, type Extent } from './base_map';
 import { Background } from './background_layer';
 import { CanvasLayer } from './canvas_layer';
 import { KeptPicture } from './kept_picture';
@@ -56,8 +56,8 @@ export class PlanView {
   }
 
   showAll(): void {
-    const extent = extentOf(this.context.session.mine) ?? trackExtent([...this.context.session.tracks.values()]);
-    fit(this.map, extent);
+    const { mine, tracks } = this.context.session;
+    fit(this.map, joined(extentOf(mine), trackExtent([...tracks.values()])));
   }
 
   /** Shows what is known now. */
@@ -151,7 +151,12 @@ export class PlanView {
   }
 }
 
-function trackExtent(tracks: Track[]): [number, number, number, number] | null {
+function joined(a: Extent | null, b: Extent | null): Extent | null {
+  if (!a || !b) return a ?? b;
+  return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+function trackExtent(tracks: Track[]): Extent | null {
   const boxes = tracks.flatMap((track) => Array.from(track.levels[track.levels.length - 1]?.boxes ?? []));
   if (boxes.length === 0) return null;
   const pick = (offset: number): number[] => boxes.filter((_, index) => index % 4 === offset);

@@ -4,8 +4,6 @@ import type { EstimatorNow, Pose } from '../protocol/messages';
 import type { Window } from './track_painter';
 
 const kTwoAxes95 = Math.sqrt(5.991); // chi-square quantile, 95 %, 2 degrees of freedom
-const kLength = 4; // m; drawn at least 18 px long
-const kWidth = 2;
 
 export interface VehicleStyle {
   colour: string;
@@ -19,7 +17,7 @@ export function paintVehicle(context: CanvasRenderingContext2D, window: Window, 
   context.save();
   context.translate(x, y);
   if (now.ellipse) paintEllipse(context, window, now.ellipse, style.colour);
-  paintBody(context, window, now.pose.yaw_rad, style);
+  paintBody(context, now.pose.yaw_rad, style);
   context.restore();
 }
 
@@ -61,10 +59,10 @@ function paintEllipse(
   context.setLineDash([]);
 }
 
-/** A box with a pointed nose; a circle where the heading is not known. */
-function paintBody(context: CanvasRenderingContext2D, window: Window, yaw: number | null, style: VehicleStyle): void {
-  const length = Math.max(style.main ? 22 : 16, kLength / window.resolution) / 2;
-  const width = Math.max(style.main ? 11 : 8, kWidth / window.resolution) / 2;
+/** A sign, not to scale: a box with a pointed nose; a circle where the heading is not known. */
+function paintBody(context: CanvasRenderingContext2D, yaw: number | null, style: VehicleStyle): void {
+  const length = style.main ? 12 : 9;
+  const width = style.main ? 6 : 4.5;
   context.fillStyle = style.colour;
   context.strokeStyle = style.edge;
   context.lineWidth = 1.5;
