@@ -135,7 +135,13 @@ export class Chart {
     ctx.font = `${11 * devicePixelRatio}px system-ui`;
     ctx.textAlign = 'left';
     ctx.setLineDash([]);
-    for (const level of this.levels) this.drawLevel(plot, level);
+    let named = Infinity; // names stand at least a line apart
+    for (const level of this.levels) {
+      const y = plot.valToPos(level.value, 'y', true);
+      const free = Math.abs(named - y) >= 13 * devicePixelRatio;
+      if (free) named = y;
+      this.drawLevel(plot, y, { ...level, label: free ? level.label : '' });
+    }
     if (this.now !== null) {
       const x = plot.valToPos(this.now, 'x', true);
       ctx.strokeStyle = this.paint.accent;
@@ -148,9 +154,8 @@ export class Chart {
     ctx.restore();
   }
 
-  private drawLevel(plot: uPlot, level: Level): void {
+  private drawLevel(plot: uPlot, y: number, level: Level): void {
     const { ctx, bbox } = plot;
-    const y = plot.valToPos(level.value, 'y', true);
     ctx.strokeStyle = this.paint.faint;
     ctx.fillStyle = this.paint.faint;
     ctx.lineWidth = 1;

@@ -54,7 +54,7 @@ function levelsOf(context: Context, kind: ChartKind, roadway: number): Level[] {
   const id = roadwayIds(context)[roadway];
   const chambers = context.session.mine.chambers.filter((chamber) => chamber.roadway === id && Number.isFinite(chamber.chainage));
   if (chambers.length > kDrawnChambers) return [];
-  return chambers.map((chamber) => ({ value: chamber.chainage, label: chamber.id, dash: [2, 4] }));
+  return [...chambers].sort((a, b) => a.chainage - b.chainage).map((chamber) => ({ value: chamber.chainage, label: chamber.id, dash: [2, 4] }));
 }
 
 export function roadwayIds(context: Context): string[] {

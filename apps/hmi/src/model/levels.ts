@@ -1,9 +1,10 @@
 /**
  * Levels of detail of a long track, for drawing a million points in a few milliseconds.
  *
- * Level 0 has every point. Level k keeps a point when it is at least `step * 2^(k-1)` metres from the last one kept, so a drawing at
- * r metres a pixel takes the coarsest level whose spacing is at most r: no kept detail is larger than a pixel. Points lie in chunks
- * with bounding boxes; a drawing skips the chunks outside the window.
+ * Level 0 has every point. A coarser level keeps those points of the one before that are at least its spacing from the last one kept.
+ * Spacings double, so a point that is left out lies within two spacings of a kept one: under two pixels, the width of the line, in a
+ * drawing that takes the coarsest level with a spacing of at most a pixel. Points lie in chunks with bounding boxes; a drawing skips the
+ * chunks outside the window.
  */
 
 export const kChunk = 512;

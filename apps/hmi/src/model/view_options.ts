@@ -20,6 +20,8 @@ export class ViewOptions {
   }
 
   set(change: Partial<Choices>): void {
+    const keys = Object.keys(change) as (keyof Choices)[];
+    if (keys.every((key) => this.choices[key] === change[key])) return;
     this.choices = { ...this.choices, ...change };
     this.listeners.forEach((listener) => listener());
   }

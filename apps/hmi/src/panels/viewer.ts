@@ -33,10 +33,16 @@ export function viewer(context: Context): View {
 
   const panels = [plan, charts, timeline, ...cards];
   const inFrame = oncePerFrame(() => panels.forEach((panel) => panel.update()));
+  let fitted = session.tracks.size > 0;
   const endings = [
     session.on('state', inFrame),
     options.on(() => (inFrame(), charts.refresh())),
-    session.on('tracks', () => (inFrame(), charts.refresh())),
+    session.on('tracks', () => {
+      if (!fitted && session.tracks.size > 0) plan.view.showAll();
+      fitted = true;
+      inFrame();
+      charts.refresh();
+    }),
     session.on('events', () => (inFrame(), timeline.showEvents())),
   ];
   inFrame();

@@ -4,9 +4,7 @@ import Layer from 'ol/layer/Layer';
 import type { FrameState } from 'ol/Map';
 import type { Window } from './track_painter';
 
-/** A canvas of the page, or one beside it. */
-export type Pen = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
-export type Painter = (context: Pen, window: Window) => void;
+export type Painter = (context: CanvasRenderingContext2D, window: Window) => void;
 
 export class CanvasLayer extends Layer {
   private readonly canvas = document.createElement('canvas');

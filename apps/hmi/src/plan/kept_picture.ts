@@ -1,13 +1,12 @@
 /** A picture of what seldom changes, larger than the window, moved and scaled while the reader pans and zooms, painted anew at rest. */
 
-import type { Painter, Pen } from './canvas_layer';
+import type { Pixels } from './track_pixels';
 import type { Window } from './track_painter';
 
 const kMargin = 0.5; // on each side, in shares of the window
 const kRestMs = 200;
 
 export class KeptPicture {
-  /** A bitmap: a canvas would keep the strokes and draw them again with every frame. */
   private bitmap: ImageBitmap | null = null;
   private window: Window | null = null;
   private key = '';
@@ -16,9 +15,9 @@ export class KeptPicture {
   /** `atRest` is called when the picture was shown scaled and should be painted sharp. */
   constructor(private readonly atRest: () => void) {}
 
-  /** Draws the picture for this window; `paint` is asked only when key or window call for another one. */
-  draw(context: Pen, window: Window, key: string, paint: Painter): void {
-    if (this.window === null || this.bitmap === null || key !== this.key || !covers(this.window, window)) this.renew(window, key, paint);
+  /** Draws the picture for this window; `plot` is asked only when key or window call for another one. */
+  draw(context: CanvasRenderingContext2D, window: Window, key: string, plot: (pixels: Pixels) => void): void {
+    if (this.window === null || this.bitmap === null || key !== this.key || !covers(this.window, window)) this.renew(window, key, plot);
     if (this.window === null || this.bitmap === null) return;
     const { left, top, width, height, resolution } = this.window;
     const scale = resolution / window.resolution;
@@ -30,24 +29,21 @@ export class KeptPicture {
     if (moving) this.sharpenLater();
   }
 
-  private renew(window: Window, key: string, paint: Painter): void {
-    const { resolution } = window;
-    this.key = key;
-    this.window = {
-      left: window.left - kMargin * window.width * resolution,
-      top: window.top + kMargin * window.height * resolution,
-      width: Math.ceil(window.width * (1 + 2 * kMargin)),
-      height: Math.ceil(window.height * (1 + 2 * kMargin)),
-      resolution,
-    };
+  private renew(window: Window, key: string, plot: (pixels: Pixels) => void): void {
     const ratio = devicePixelRatio;
-    const canvas = new OffscreenCanvas(Math.round(this.window.width * ratio), Math.round(this.window.height * ratio));
-    const pen = canvas.getContext('2d', { willReadFrequently: true });
-    if (!pen) return;
-    pen.scale(ratio, ratio);
-    paint(pen, this.window);
+    const columns = Math.round(window.width * (1 + 2 * kMargin) * ratio);
+    const rows = Math.round(window.height * (1 + 2 * kMargin) * ratio);
+    const left = window.left - kMargin * window.width * window.resolution;
+    const top = window.top + kMargin * window.height * window.resolution;
+    const image = new ImageData(columns, rows);
+    const inPixels = { left, top, width: columns, height: rows, resolution: window.resolution / ratio };
+    plot({ window: inPixels, data: new Uint32Array(image.data.buffer) });
+    const canvas = new OffscreenCanvas(columns, rows);
+    canvas.getContext('2d', { willReadFrequently: true })?.putImageData(image, 0, 0);
     this.bitmap?.close();
     this.bitmap = canvas.transferToImageBitmap();
+    this.key = key;
+    this.window = { left, top, width: columns / ratio, height: rows / ratio, resolution: window.resolution };
   }
 
   private sharpenLater(): void {

@@ -9,14 +9,15 @@ import { lineOf, mainEstimator, trackNames, type Context } from '../model/contex
 import { extentOf } from '../model/mine';
 import type { Track } from '../model/track';
 import { lowerBound } from '../model/levels';
-import { fit, planeMap } from './base_map';
+import { fit, planeMap, type Extent } from './base_map';
 import { Background } from './background_layer';
-import { CanvasLayer, type Pen } from './canvas_layer';
+import { CanvasLayer } from './canvas_layer';
 import { KeptPicture } from './kept_picture';
 import { mineFeatures } from './mine_features';
 import { mineStyle, type Look } from './mine_styles';
 import { classesOf } from './track_classes';
 import { paintTrack, type TrackStyle, type Window } from './track_painter';
+import { pixelColour, plotTrack, type Pixels } from './track_pixels';
 import { partsOf, type Part } from './track_parts';
 import { paintTruth, paintVehicle } from './vehicle_painter';
 
@@ -55,8 +56,8 @@ export class PlanView {
   }
 
   showAll(): void {
-    const extent = extentOf(this.context.session.mine) ?? trackExtent([...this.context.session.tracks.values()]);
-    fit(this.map, extent);
+    const { mine, tracks } = this.context.session;
+    fit(this.map, joined(extentOf(mine), trackExtent([...tracks.values()])));
   }
 
   /** Shows what is known now. */
@@ -87,7 +88,7 @@ export class PlanView {
     this.mine.changed();
   }
 
-  private paint(context: Pen, window: Window): void {
+  private paint(context: CanvasRenderingContext2D, window: Window): void {
     const { session, options } = this.context;
     const { hidden } = options.now;
     this.paintTracks(context, window);
@@ -102,11 +103,11 @@ export class PlanView {
     }
   }
 
-  private paintTracks(context: Pen, window: Window): void {
+  private paintTracks(context: CanvasRenderingContext2D, window: Window): void {
     const drawn = this.drawnParts();
     const kept = drawn.filter(({ part }) => part.kept);
     const key = this.context.options.now.colourBy + kept.map(({ name, part }) => `${name} ${part.first} ${part.end}`).join();
-    if (kept.length > 0) this.kept.draw(context, window, key, (pen, all) => kept.forEach((one) => this.paintPart(pen, all, one)));
+    if (kept.length > 0) this.kept.draw(context, window, key, (pixels) => kept.forEach((one) => this.plotPart(pixels, one)));
     for (const one of drawn) if (!one.part.kept) this.paintPart(context, window, one);
   }
 
@@ -124,10 +125,16 @@ export class PlanView {
     });
   }
 
-  private paintPart(context: Pen, window: Window, { name, track, part }: DrawnPart): void {
+  private paintPart(context: CanvasRenderingContext2D, window: Window, { name, track, part }: DrawnPart): void {
     context.globalAlpha = part.future ? 0.25 : 1;
     paintTrack(context, track, track.levels, part, window, this.trackStyle(name, track));
     context.globalAlpha = 1;
+  }
+
+  private plotPart(pixels: Pixels, { name, track, part }: DrawnPart): void {
+    const style = this.trackStyle(name, track);
+    const colours = Uint32Array.from(style.colours, (colour) => pixelColour(colour, part.future ? 0.25 : 1));
+    plotTrack(pixels, track, track.levels, part, { colours, classOf: style.classOf ?? null });
   }
 
   private trackStyle(name: string, track: Track): TrackStyle {
@@ -144,7 +151,12 @@ export class PlanView {
   }
 }
 
-function trackExtent(tracks: Track[]): [number, number, number, number] | null {
+function joined(a: Extent | null, b: Extent | null): Extent | null {
+  if (!a || !b) return a ?? b;
+  return [Math.min(a[0], b[0]), Math.min(a[1], b[1]), Math.max(a[2], b[2]), Math.max(a[3], b[3])];
+}
+
+function trackExtent(tracks: Track[]): Extent | null {
   const boxes = tracks.flatMap((track) => Array.from(track.levels[track.levels.length - 1]?.boxes ?? []));
   if (boxes.length === 0) return null;
   const pick = (offset: number): number[] => boxes.filter((_, index) => index % 4 === offset);

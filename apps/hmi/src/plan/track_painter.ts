@@ -1,6 +1,5 @@
 /** Draws one long track into a canvas: right level of detail, chunks in the window only, no pixel painted twice over. */
 
-import type { Pen } from './canvas_layer';
 import { kChunk, levelFor, lowerBound, type Level, type PlanarTrack } from '../model/levels';
 
 /** From map metres to canvas pixels: column = (x - left) / resolution, row = (top - y) / resolution. */
@@ -28,7 +27,7 @@ export interface Span {
 
 /** Draws the points `span.first` to `span.end` (indices of the track). */
 export function paintTrack(
-  context: Pen,
+  context: CanvasRenderingContext2D,
   track: PlanarTrack,
   levels: Level[],
   span: Span,
@@ -55,7 +54,7 @@ export function paintTrack(
   context.setLineDash([]);
 }
 
-function outside(boxes: Float64Array, chunk: number, window: Window): boolean {
+export function outside(boxes: Float64Array, chunk: number, window: Window): boolean {
   const right = window.left + window.width * window.resolution;
   const bottom = window.top - window.height * window.resolution;
   const at = 4 * chunk;

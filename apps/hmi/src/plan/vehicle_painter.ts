@@ -1,12 +1,9 @@
 /** Draws where an estimator says the vehicle is: covariance ellipse, body, direction, name. */
 
 import type { EstimatorNow, Pose } from '../protocol/messages';
-import type { Pen } from './canvas_layer';
 import type { Window } from './track_painter';
 
 const kTwoAxes95 = Math.sqrt(5.991); // chi-square quantile, 95 %, 2 degrees of freedom
-const kLength = 4; // m; drawn at least 18 px long
-const kWidth = 2;
 
 export interface VehicleStyle {
   colour: string;
@@ -14,17 +11,17 @@ export interface VehicleStyle {
   main: boolean;
 }
 
-export function paintVehicle(context: Pen, window: Window, now: EstimatorNow, style: VehicleStyle): void {
+export function paintVehicle(context: CanvasRenderingContext2D, window: Window, now: EstimatorNow, style: VehicleStyle): void {
   if (!now.pose) return;
   const { x, y } = pixel(window, now.pose);
   context.save();
   context.translate(x, y);
   if (now.ellipse) paintEllipse(context, window, now.ellipse, style.colour);
-  paintBody(context, window, now.pose.yaw_rad, style);
+  paintBody(context, now.pose.yaw_rad, style);
   context.restore();
 }
 
-export function paintTruth(context: Pen, window: Window, pose: Pose, colour: string): void {
+export function paintTruth(context: CanvasRenderingContext2D, window: Window, pose: Pose, colour: string): void {
   const { x, y } = pixel(window, pose);
   context.save();
   context.strokeStyle = colour;
@@ -43,7 +40,7 @@ function pixel(window: Window, pose: Pose): { x: number; y: number } {
 }
 
 function paintEllipse(
-  context: Pen,
+  context: CanvasRenderingContext2D,
   window: Window,
   ellipse: NonNullable<EstimatorNow['ellipse']>,
   colour: string,
@@ -62,10 +59,10 @@ function paintEllipse(
   context.setLineDash([]);
 }
 
-/** A box with a pointed nose; a circle where the heading is not known. */
-function paintBody(context: Pen, window: Window, yaw: number | null, style: VehicleStyle): void {
-  const length = Math.max(style.main ? 22 : 16, kLength / window.resolution) / 2;
-  const width = Math.max(style.main ? 11 : 8, kWidth / window.resolution) / 2;
+/** A sign, not to scale: a box with a pointed nose; a circle where the heading is not known. */
+function paintBody(context: CanvasRenderingContext2D, yaw: number | null, style: VehicleStyle): void {
+  const length = style.main ? 12 : 9;
+  const width = style.main ? 6 : 4.5;
   context.fillStyle = style.colour;
   context.strokeStyle = style.edge;
   context.lineWidth = 1.5;
