@@ -1,5 +1,6 @@
 #include "pos/estimation/shearer.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "parts.hpp"
@@ -18,6 +19,29 @@ using ins::kVelocity;
 std::vector<int> modesOf(const ShearerConfig& config) {
   if (config.selection.mode == 0) return {2, 7};
   return {config.selection.mode};
+}
+
+lidar::LegConfig legFinderOf(const LegsConfig& legs) {
+  return {.diameter = legs.diameter,
+          .lateral = legs.lateral,
+          .lateral_tolerance = legs.lateral_gate,
+          .sigma_range = legs.range_sigma,
+          .calibration = legs.calibration};
+}
+
+/// Where along the track legs are looked for: as far as the selection reaches, and one support more.
+lidar::AlongFace reachOf(const ShearerConfig& config, const ShearerFilter& filter) {
+  const double far = config.selection.distance + (config.selection.features + 1) * config.legs.spacing;
+  const double near = std::max(0.0, config.selection.distance - config.legs.spacing);
+  switch (sideOf(filter.mode(), filter.progress().travel())) {
+    case ZoneSide::A:
+      return {near, far};
+    case ZoneSide::B:
+      return {-far, -near};
+    case ZoneSide::Both:
+      break;
+  }
+  return {-far, far};
 }
 
 }  // namespace
@@ -67,7 +91,7 @@ Eigen::Matrix<double, 15, 15> shearerStartCovariance(const ShearerConfig& config
 }
 
 Shearer::Shearer(const ShearerConfig& config, const std::shared_ptr<const map::TunnelMap>& map)
-    : config_(config), earth_(shearerEarth(config, *map)) {}
+    : config_(config), earth_(shearerEarth(config, *map)), finder_(legFinderOf(config.legs)) {}
 
 void Shearer::reset(Stamp stamp, const Belief<Pose2>& prior) {
   given_ = prior;
@@ -170,7 +194,7 @@ IngestReport Shearer::take(const Measurement& measurement, const Scan2D& scan) {
   if (measurement.sensor != config_.legs.sensor)
     return refusal(Verdict::Unsupported, "not the scanner that sees the legs (legs.sensor)");
   if (scan.ranges.size() == 1) return takePoint(measurement.stamp, scan);
-  return refusal(Verdict::Unsupported, "whole sweeps are not taken");
+  return takeSweep(measurement.stamp, scan);
 }
 
 /// A leg measured as a point: the beam's mount is turned to look at it.
@@ -179,6 +203,37 @@ IngestReport Shearer::takePoint(Stamp stamp, const Scan2D& scan) {
   const Eigen::Vector3d direction(std::cos(scan.angle_first), std::sin(scan.angle_first), 0.0);
   const Eigen::Vector3d p_body = scan.T_body_sensor * Eigen::Vector3d(scan.ranges.front() * direction);
   return takeLeg(stamp, p_body - config_.legs.place, config_.legs.sigma.cwiseAbs2().asDiagonal());
+}
+
+/// Every leg of a sweep that a filter may use, in the order of the beams. Applied when one of them was.
+IngestReport Shearer::takeSweep(Stamp stamp, const Scan2D& scan) {
+  if (!running_) return refusal(Verdict::NotInitialised, "nothing heard of the inertial unit yet");
+  lidar::AlongFace part = reachOf(config_, filters_.front());
+  for (const ShearerFilter& filter : filters_) {
+    const lidar::AlongFace other = reachOf(config_, filter);
+    part = {std::min(part.from, other.from), std::max(part.to, other.to)};
+  }
+  const lidar::LegSweep sweep = finder_.find(scan, part);
+  if (sweep.view == lidar::LegView::NoReturns)
+    return refusal(Verdict::Degenerate, "no beam of the sweep came back");
+  IngestReport report =
+      refusal(Verdict::Unsupported, "no leg of the sweep is one that the mode of selection uses");
+  const Eigen::Matrix3d R = scan.T_body_sensor.rotation.toRotationMatrix();
+  for (const lidar::LegDetection& leg : sweep.legs) {
+    const Eigen::Vector3d p_body = scan.T_body_sensor * Eigen::Vector3d(leg.centre.x(), leg.centre.y(), 0.0);
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    covariance.topLeftCorner<2, 2>() = leg.covariance;
+    covariance(2, 2) = square(config_.legs.sigma.z());
+    const IngestReport one = takeLeg(stamp, p_body - config_.legs.place, R * covariance * R.transpose());
+    if (one.verdict == Verdict::Applied) {
+      report = {.verdict = Verdict::Applied, .dof = report.dof + one.dof, .nis = report.nis + one.nis};
+    } else if (one.verdict == Verdict::Gated && report.verdict == Verdict::Unsupported) {
+      report = one;
+      report.dof = 0;
+      report.nis = 0.0;
+    }
+  }
+  return report;
 }
 
 IngestReport Shearer::takeLeg(Stamp stamp, const Eigen::Vector3d& measured,

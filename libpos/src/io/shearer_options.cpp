@@ -51,6 +51,17 @@ OptionTable<FaceConfig> faceOptions() {
       .check(kValid);
 }
 
+OptionTable<lidar::ScannerCalibration> calibrationOptions() {
+  using Calibration = lidar::ScannerCalibration;
+  return OptionTable<Calibration>("calibration", "Errors of the scanner to be taken out of its sweeps.")
+      .number("a1", &Calibration::a1, anything(), "True angle = a1 m^2 + a2 m + a3 of a measured m, in deg.")
+      .number("a2", &Calibration::a2, anything(), "The same.")
+      .number("a3", &Calibration::a3, anything(), "The same.")
+      .number("scale", &Calibration::scale, between(-0.5, 0.5), "Measured range = (1 + scale) true + offset.")
+      .number("offset_m", &Calibration::offset, between(-10, 10), "The same.")
+      .check(kValid);
+}
+
 OptionTable<LegsConfig> legsOptions() {
   return OptionTable<LegsConfig>("legs", "The supports' legs and how the scanner sees them.")
       .text("sensor", &LegsConfig::sensor, "Label of the scanner.")
@@ -63,6 +74,8 @@ OptionTable<LegsConfig> legsOptions() {
               "A leg further from where one is expected is another one.")
       .number("diameter_m", &LegsConfig::diameter, moreThan(0), "Of a leg.")
       .number("range_sigma_m", &LegsConfig::range_sigma, moreThan(0), "Of one beam of a sweep.")
+      .table("calibration", &LegsConfig::calibration, calibrationOptions(),
+             "Errors of the scanner, known; without it sweeps are taken as they are.")
       .numbers("sigma_m", &LegsConfig::sigma, moreThan(0),
                "Of a leg in scanner axes: along, across, up. For sweeps the first two come from the fit.")
       .number("confidence", &LegsConfig::confidence, between(0.5, 0.999999),

@@ -11,6 +11,7 @@
 #include "pos/estimation/estimator.hpp"
 #include "pos/estimation/inertial_intake.hpp"
 #include "pos/estimation/shearer_filter.hpp"
+#include "pos/lidar/legs.hpp"
 #include "pos/map/tunnel_map.hpp"
 
 namespace pos::estimation {
@@ -49,6 +50,7 @@ class Shearer final : public Estimator {
     return {.verdict = Verdict::Unsupported, .reason = "shearer has no use for this kind of reading"};
   }
   IngestReport takePoint(Stamp stamp, const Scan2D& scan);
+  IngestReport takeSweep(Stamp stamp, const Scan2D& scan);
   IngestReport takeLeg(Stamp stamp, const Eigen::Vector3d& measured, const Eigen::Matrix3d& covariance);
   void start();
   void chooseMode();
@@ -57,6 +59,7 @@ class Shearer final : public Estimator {
 
   ShearerConfig config_;
   ins::Earth earth_;
+  lidar::LegFinder finder_;
   std::vector<ShearerFilter> filters_;  // one, or modes 2 and 7 until the first end 2
   std::optional<Belief<Pose2>> given_;
   std::optional<Stamp> last_stamp_;

@@ -9,6 +9,7 @@
 
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
+#include "pos/lidar/angle_calibration.hpp"
 
 namespace pos::estimation {
 
@@ -49,13 +50,14 @@ struct LegsConfig {
   double lateral = 4.0;                             ///< m, to the left of the conveyor's line
   double lateral_gate =
       1.6;  ///< m: an advance, which the S-bend of an end operation puts between the two, and 0.6
-  double association_gate = 0.5;            ///< m, and from where a known leg is expected
-  double diameter = 0.30;                   ///< m
-  double range_sigma = 0.01;                ///< m, of one beam; sweeps only
-  Eigen::Vector3d sigma{0.01, 0.01, 0.02};  ///< m, of a leg in scanner axes: along, across, up
-  double confidence = 0.999;                ///< of the chi-square gate
-  int rejections = 5;                       ///< in a row: the leg is dropped and found anew
-  double degraded_after = 20.0;             ///< s without any leg
+  double association_gate = 0.5;               ///< m, and from where a known leg is expected
+  double diameter = 0.30;                      ///< m
+  double range_sigma = 0.01;                   ///< m, of one beam; sweeps only
+  lidar::ScannerCalibration calibration = {};  ///< taken out of sweeps; the default leaves them raw
+  Eigen::Vector3d sigma{0.01, 0.01, 0.02};     ///< m, of a leg in scanner axes: along, across, up
+  double confidence = 0.999;                   ///< of the chi-square gate
+  int rejections = 5;                          ///< in a row: the leg is dropped and found anew
+  double degraded_after = 20.0;                ///< s without any leg
 
   bool operator==(const LegsConfig&) const = default;
 };
