@@ -100,7 +100,23 @@ std::vector<Subject> subjects() {
   DeadReckoningConfig ekf_states = ekf_heading;
   ekf_states.heading.yaw_bias = {0.0, 0.001, 0.001};
   ekf_states.heading.track_error = {0.0, 0.02, 0.0};
+  ShearerConfig shearer;  // no legs in this room: the inertial unit alone, told how fast it goes at the start
+  shearer.earth = ShearerConfig::Earth::Flat;
+  shearer.start = startAtTruth(StartMode::Known);
+  shearer.alignment.speed = 0.5;
+  ShearerConfig shearer_states = shearer;
+  shearer_states.selection.mode = 0;
+  shearer_states.scanner.use = true;
+  shearer_states.picm.use = PicmConfig::Use::Continue;
+  ShearerConfig shearer_dr = shearer;
+  shearer_dr.variant = ShearerConfig::Variant::Dr;
+  ShearerConfig shearer_closed = shearer;
+  shearer_closed.variant = ShearerConfig::Variant::DrClosedPath;
   return {{"sins_dr", sins, false, false, false, true},
+          {"shearer", shearer, false, false, false, true},
+          {"shearer_states", shearer_states, false, false, false, true},
+          {"shearer_dr", shearer_dr, false, false, false, true},
+          {"shearer_dr_closed_path", shearer_closed, false, false, false, true},
           {"dead_reckoning_encoders", encoders},
           {"dead_reckoning_encoders_attitude", attitude, false, false, false, true},
           {"dead_reckoning_ekf_heading", ekf_heading, false, false, false, true},
