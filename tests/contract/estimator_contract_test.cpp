@@ -125,6 +125,18 @@ std::vector<Subject> subjects() {
   SeamlessConfig faimm = imm;
   faimm.variant = SeamlessConfig::Variant::Faimm;
   faimm.imm.likelihood = filters::LikelihoodForm::PositionDomain;
+  ShearerConfig shearer;  // no legs in this room: the inertial unit alone, told how fast it goes at the start
+  shearer.earth = ShearerConfig::Earth::Flat;
+  shearer.start = startAtTruth(StartMode::Known);
+  shearer.alignment.speed = 0.5;
+  ShearerConfig shearer_states = shearer;
+  shearer_states.selection.mode = 0;
+  shearer_states.scanner.use = true;
+  shearer_states.picm.use = PicmConfig::Use::Continue;
+  ShearerConfig shearer_dr = shearer;
+  shearer_dr.variant = ShearerConfig::Variant::Dr;
+  ShearerConfig shearer_closed = shearer;
+  shearer_closed.variant = ShearerConfig::Variant::DrClosedPath;
   return {{"seamless_imm", imm, false, false, false, true},
           {"seamless_faimm", faimm, false, false, false, true},
           {"uwb_imu_eskf", eskf, false, false, false, true},
@@ -134,6 +146,10 @@ std::vector<Subject> subjects() {
           {"uwb_imu_ukf", ukf, false, false, false, true},
           {"uwb_imu_uwb_only", uwb_only},
           {"sins_dr", sins, false, false, false, true},
+          {"shearer", shearer, false, false, false, true},
+          {"shearer_states", shearer_states, false, false, false, true},
+          {"shearer_dr", shearer_dr, false, false, false, true},
+          {"shearer_dr_closed_path", shearer_closed, false, false, false, true},
           {"dead_reckoning_encoders", encoders},
           {"dead_reckoning_encoders_attitude", attitude, false, false, false, true},
           {"dead_reckoning_ekf_heading", ekf_heading, false, false, false, true},

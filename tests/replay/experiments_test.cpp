@@ -30,5 +30,23 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
+/// Hours of simulation, of which the first minutes are enough to see that they run.
+class LongRuns : public ::testing::TestWithParam<const char*> {
+ protected:
+  Bench bench_;
+};
+
+TEST_P(LongRuns, BeginAsTheyShould) {
+  const std::string run = std::string("experiments/shearer/") + GetParam();
+  expectFigures(
+      run,
+      {replayed(bench_, {source("configs/" + run + ".yaml").string(), "--set", "scenario.duration_s=120"})});
+}
+
+INSTANTIATE_TEST_SUITE_P(Shearer, LongRuns,
+                         ::testing::Values("modes", "features", "distance", "picm", "bend_creep", "yaw_prior",
+                                           "legs"),
+                         [](const auto& named) { return std::string(named.param); });
+
 }  // namespace
 }  // namespace pos::replay

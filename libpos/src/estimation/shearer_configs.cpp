@@ -66,8 +66,8 @@ EndFixConfig validated(EndFixConfig config) {
   requireNotNegative(config.first_cut_height_sigma, "first_cut_height_sigma_m");
   requireFinite(config.first_cut_lateral, "first_cut_lateral_m");
   requireFinite(config.first_cut_height, "first_cut_height_m");
-  requireNotNegative(config.first_cut_straight_sigma, "first_cut_straight_sigma_m");
-  requirePositive(config.first_cut_straight_every, "first_cut_straight_every_m");
+  requireNotNegative(config.straight_sigma, "straight_sigma_m");
+  requirePositive(config.straight_every, "straight_every_m");
   requireNotNegative(config.stroke_sigma, "stroke_sigma_m");
   return config;
 }

@@ -46,7 +46,8 @@ void ShearerFilter::start(const ins::Earth& earth, const ins::NavigationState& n
   if (x.sensor_states) {
     const ScannerStates& s = config_.scanner;
     LegSensorTangent sigma;
-    sigma << s.mount_yaw_sigma, s.mount_pitch_sigma, s.scale_sigma, s.offset_sigma, s.angle_scale_sigma, s.angle_curve_sigma;
+    sigma << s.mount_yaw_sigma, s.mount_pitch_sigma, s.scale_sigma, s.offset_sigma, s.angle_scale_sigma,
+        s.angle_curve_sigma;
     belief_.covariance.diagonal().segment<LegSensor::kDof>(x.sensorRow()) = sigma.cwiseAbs2();
   }
   belief_.by_yaw.resize(0);
@@ -94,7 +95,7 @@ FaceProgress::Event ShearerFilter::watchFace(double dt) {
   const double speed = along_.dot(belief_.mean.nav.v_n.head<2>());
   const FaceProgress::Event event = progress_.step(station(), speed, dt);
   if (event == FaceProgress::Event::Arrived) arrived();
-  alongFirstCut();
+  alongCut();
   return event;
 }
 
@@ -111,16 +112,18 @@ void ShearerFilter::arrived() {
   if (fix.stroke_sigma > 0.0) closeLoop(end);
 }
 
-/// The first cut runs along its line, within what it strays.
-void ShearerFilter::alongFirstCut() {
+/// A cut runs along its line, within what it strays; the line moves by the advances.
+void ShearerFilter::alongCut() {
   const EndFixConfig& fix = config_.end_fix;
-  const bool first = progress_.arrivals() == 0 && progress_.end() == 2;
-  if (!first || fix.first_cut_straight_sigma <= 0.0) return;
-  if (station() - straight_at_ < fix.first_cut_straight_every) return;
+  if (!progress_.inPass() || fix.straight_sigma <= 0.0) return;
+  if (std::abs(station() - straight_at_) < fix.straight_every) return;
   straight_at_ = station();
   catchUp();
+  const int line = progress_.arrivals();
   const double share = station() / config_.face.length;
-  fixPlace(Eigen::Vector3d(share * fix.first_cut_lateral, 0.0, 0.0), {fix.first_cut_straight_sigma, 0.0, 0.0});
+  const double lateral = share * fix.first_cut_lateral + line * config_.face.advance;
+  const double sigma = std::sqrt(square(fix.straight_sigma) + line * square(fix.stroke_sigma));
+  fixPlace(Eigen::Vector3d(lateral, 0.0, 0.0), {sigma, 0.0, 0.0});
 }
 
 /// `place` and `sigma`: right of the line from end 1, along it, above the start; m. Sigma 0: not known.

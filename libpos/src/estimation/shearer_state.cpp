@@ -29,7 +29,7 @@ ins::ErrorModel modelBetween(const ShearerState& x, const ins::NavigationState& 
   const Eigen::Vector3d gravity(0.0, 0.0, -here.gravity);
   const Eigen::Vector3d coriolis = 2.0 * here.omega_ie.cross(0.5 * (x.nav.v_n + before.v_n));
   ins::ErrorModel m;
-  m.C = x.nav.C_n_b();
+  m.C = 0.5 * (before.C_n_b() + x.nav.C_n_b());
   m.phi_phi = -skew(here.omega_ie);
   m.v_phi = skew((x.nav.v_n - before.v_n) / dt - gravity + coriolis);
   m.v_v = -skew(2.0 * here.omega_ie);

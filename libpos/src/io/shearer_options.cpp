@@ -134,9 +134,9 @@ OptionTable<EndFixConfig> endFixOptions() {
       .number("first_cut_lateral_m", &EndFixConfig::first_cut_lateral, between(-100, 100),
               "Right of the line from end 1 along the heading.")
       .number("first_cut_height_m", &EndFixConfig::first_cut_height, between(-100, 100), "Above end 1.")
-      .number("first_cut_straight_sigma_m", &EndFixConfig::first_cut_straight_sigma, between(0, 10),
-              "How far the first cut strays from its line, across the face.")
-      .number("first_cut_straight_every_m", &EndFixConfig::first_cut_straight_every, moreThan(0),
+      .number("straight_sigma_m", &EndFixConfig::straight_sigma, between(0, 10),
+              "How far a cut strays from its line, across the face; the line moves by the advances.")
+      .number("straight_every_m", &EndFixConfig::straight_every, moreThan(0),
               "Way after which it strays anew.")
       .number("stroke_sigma_m", &EndFixConfig::stroke_sigma, between(0, 10),
               "Of an advance, between two arrivals at an end.")

@@ -88,12 +88,12 @@ struct PicmConfig {
 /// Errors of scanner and mount as states. Sigma 0 holds one at its value.
 struct ScannerStates {
   bool use = false;
-  double mount_yaw_sigma = 8.727e-3;  ///< rad (0.5 deg)
+  double mount_yaw_sigma = 8.727e-3;    ///< rad (0.5 deg)
   double mount_pitch_sigma = 8.727e-4;  ///< rad (3 arc minutes)
-  double scale_sigma = 1e-3;          ///< -
-  double offset_sigma = 0.05;         ///< m
-  double angle_scale_sigma = 0.01;    ///< rad per rad off the middle of the scan
-  double angle_curve_sigma = 5e-3;    ///< rad per rad^2
+  double scale_sigma = 1e-3;            ///< -
+  double offset_sigma = 0.05;           ///< m
+  double angle_scale_sigma = 0.01;      ///< rad per rad off the middle of the scan
+  double angle_curve_sigma = 5e-3;      ///< rad per rad^2
 
   bool operator==(const ScannerStates&) const = default;
 };
@@ -106,8 +106,8 @@ struct EndFixConfig {
   double first_cut_height_sigma = 0.0;   ///< m
   double first_cut_lateral = 0.0;        ///< m right of the line from end 1 along the heading
   double first_cut_height = 0.0;         ///< m above end 1
-  double first_cut_straight_sigma = 0.0;  ///< m, across the face: how far the first cut strays from its line
-  double first_cut_straight_every = 20.0;  ///< m of way after which it strays anew
+  double straight_sigma = 0.0;           ///< m, across the face: how far a cut strays from its line
+  double straight_every = 20.0;          ///< m of way after which it strays anew
   double stroke_sigma = 0.0;             ///< m, of an advance
 
   bool operator==(const EndFixConfig&) const = default;

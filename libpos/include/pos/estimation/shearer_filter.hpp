@@ -55,7 +55,7 @@ class ShearerFilter {
   ins::ImuIncrement corrected(const ins::ImuIncrement& raw) const;
   FaceProgress::Event watchFace(double dt);
   void arrived();
-  void alongFirstCut();
+  void alongCut();
   void fixPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& sigma);
   void closeLoop(int end);
   void dropOutOfSight();
@@ -79,8 +79,8 @@ class ShearerFilter {
   double unpropagated_ = 0.0;
   double unwatched_ = 0.0;
   double unaided_ = 0.0;
-  double straight_at_ = 0.0;  // m along the face: where the first cut was last said to be straight
-  bool swept_ = false;  // legs out of sight dropped since the last increment
+  double straight_at_ = 0.0;  // m along the face: where the cut was last said to be on its line
+  bool swept_ = false;        // legs out of sight dropped since the last increment
 };
 
 }  // namespace pos::estimation
