@@ -178,14 +178,15 @@ filters::Correction<1> SequentialCorrection::take(const PoseRow& row, double R, 
     told.verdict = Verdict::Degenerate;
     return told;
   }
-  told.nis = nu * nu / S;
+  const double inverse = 1.0 / S;  // one division and one root: they cost as much as the rest
+  told.nis = nu * nu * inverse;
   if (told.nis > gate.threshold) {
     told.verdict = Verdict::Gated;
     return told;
   }
   // K = G / S, and P - K S K' = P - W W' with W = G / sqrt(S)
-  const double root = 1.0 / std::sqrt(S);
-  const double step = nu / S;
+  const double root = std::sqrt(inverse);
+  const double step = nu * inverse;
   double W[n];
   for (int i = 0; i < n; ++i) {
     d_[i] += step * G[i];
