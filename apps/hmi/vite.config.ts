@@ -8,16 +8,16 @@ export default defineConfig({
   test: {
     projects: [
       { test: { name: 'unit', include: ['tests/unit/**/*.test.ts'] } },
-      {
+      ...['browser', 'speed'].map((name) => ({
         test: {
-          name: 'browser',
-          include: ['tests/browser/**/*.test.ts'],
+          name,
+          include: [`tests/${name}/**/*.test.ts`],
           testTimeout: 120000,
           hookTimeout: 120000,
           expect: { poll: { timeout: 15000 } },
           poolOptions: { forks: { singleFork: true } },
         },
-      },
+      })),
     ],
   },
 });
