@@ -155,8 +155,8 @@ Topic legs() {
   return {.title = "Legs of supports in a sweep of 721 beams",
           .yardstick = "simulating the sweep",
           .comparisons = {{"all 17 in view", "find/whole_row", "sweep_simulated", "ns_per_sweep", "ns", 1.0},
-                          {"all 17, robust weights", "find/whole_row_robust", "sweep_simulated", "ns_per_sweep",
-                           "ns", 0.0},
+                          {"all 17, robust weights", "find/whole_row_robust", "sweep_simulated",
+                           "ns_per_sweep", "ns", 0.0},
                           {"the two that a filter uses", "find/two_legs_behind", "sweep_simulated",
                            "ns_per_sweep", "ns", 0.0}},
           .figures = {{"growth of the peak memory", "find/whole_row", "memory_growth_kb", "kB"}}};
@@ -165,7 +165,8 @@ Topic legs() {
 }  // namespace
 
 std::vector<Topic> topics() {
-  return {particleFilter(), rangeOdometry(), dualUwb(), reading(), replay(), inertial(), sins(), legs(), tunnelMap()};
+  return {particleFilter(), rangeOdometry(), dualUwb(), reading(),  replay(),
+          inertial(),       sins(),          legs(),    tunnelMap()};
 }
 
 json parsed(const std::string& text) {

@@ -36,8 +36,8 @@ struct RequirementResult {
 /// degrees); nothing where this run gives the figure no value (no truth, no heading in it, ...).
 std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& estimator, Duration log_span);
 
-/// The requirement is on a figure of one sensor, window or switch. Which of these there are is known after the
-/// run only, so that it cannot be checked for mistyped names before.
+/// The requirement is on a figure of one sensor, window or switch. Which of these there are is known after
+/// the run only, so that it cannot be checked for mistyped names before.
 bool isOfASensor(const std::string& text);
 
 /// Reads `[estimator.]metric(<|<=|>|>=)number`. The metric is a path of summary.json ("errors.xy.p95", with
