@@ -170,8 +170,9 @@ TEST(ConfigRun, ValidatedFindsWhatTheReaderFinds) {
 TEST(ConfigRun, UnknownTypeIsRefusedWithTheNearestOne) {
   const Complaint complaint = refusal(std::string(kHead) + "  - {name: a, type: range_odometri}\n");
   EXPECT_EQ(complaint.key, "estimators[0].type");
-  EXPECT_EQ(complaint.expected,
-            "one of: dead_reckoning, range_odometry, mcl, mrpt_mcl, dual_uwb, sins_dr, uwb_imu, seamless");
+  EXPECT_EQ(
+      complaint.expected,
+      "one of: dead_reckoning, range_odometry, mcl, mrpt_mcl, dual_uwb, sins_dr, uwb_imu, seamless, shearer");
   EXPECT_EQ(complaint.suggestion, "did you mean range_odometry?");
 }
 
