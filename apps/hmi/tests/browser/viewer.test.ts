@@ -127,6 +127,7 @@ test('everything of the viewer is within reach of the keyboard', async () => {
   await expect.poll(() => text(page, 'clock')).toBe('0:00.0 / 2:00.0');
   await page.keyboard.press('ArrowRight');
   await expect.poll(() => server.stamp).toBe(1);
+  await expect.poll(() => text(page, 'clock')).toContain('0:01.0 /'); // a step goes from what the page shows
   await page.keyboard.press('Shift+ArrowRight');
   await expect.poll(() => server.stamp).toBe(11);
   await page.keyboard.press('Space');
