@@ -83,7 +83,7 @@ TEST(Eskf, ConstantForceAndTurnRateAreIntegratedExactly) {
     const Eigen::Vector3d truth(20.0 * std::sin(6.0), 20.0 * (1.0 - std::cos(6.0)), 0.0);
     EXPECT_LT((x.p_map - truth).norm(), 0.1 * dt * dt) << rate;  // the trapezoid's position
     EXPECT_LT((x.v_map - Eigen::Vector3d(2.0 * std::cos(6.0), 2.0 * std::sin(6.0), 0.0)).norm(), 1e-9);
-    EXPECT_NEAR(Pose3({}, x.q_map_body).yaw(), 6.0 - 2.0 * M_PI, 1e-9);
+    EXPECT_NEAR((Pose3{{}, x.q_map_body}).yaw(), 6.0 - 2.0 * M_PI, 1e-9);
   }
 }
 
