@@ -74,7 +74,8 @@ TEST(State, EveryIntervalHasALockState) {
   EXPECT_EQ(locks[1].at("state"), "held");
   EXPECT_EQ(locks[2].at("state"), "doubtful");
   show.estimators[0].place->state = interval::MatchState::Lost;
-  for (const json& lock : bodyOf(show).at("locks")) EXPECT_EQ(lock.at("state"), "unknown");
+  const json lost = bodyOf(show);
+  for (const json& lock : lost.at("locks")) EXPECT_EQ(lock.at("state"), "unknown");
   EXPECT_EQ(bodyOf(show).at("estimators")[0].at("place").at("roadway"), nullptr);
 }
 
