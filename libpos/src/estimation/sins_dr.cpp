@@ -64,19 +64,14 @@ void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 Belief<Pose2> SinsDr::prior() const {
-  if (given_) return *given_;
-  const double p = square(config_.start.position_sigma);
-  return {config_.start.pose, Vector<3>(p, p, square(config_.start.yaw_sigma)).asDiagonal()};
+  return given_ ? *given_ : knownStart(config_.start);
 }
 
 IngestReport SinsDr::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const IngestReport report =
       std::visit([&](const auto& reading) { return take(measurement.stamp, reading); }, measurement.reading);
-  if (report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate)
-    last_stamp_ = measurement.stamp;
+  if (movesTimeOn(report)) last_stamp_ = measurement.stamp;
   return report;
 }
 

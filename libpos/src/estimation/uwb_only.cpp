@@ -41,9 +41,7 @@ void UwbOnlyCore::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 IngestReport UwbOnlyCore::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const auto* range = std::get_if<BeaconRange>(&measurement.reading);
   if (range == nullptr) return refusal(Verdict::Unsupported, "uwb_only uses ranges and nothing else");
   return take(measurement.stamp, *range);
