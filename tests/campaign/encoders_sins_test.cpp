@@ -93,14 +93,17 @@ TEST(EncodersSins, Be4NobodyIsLockedOut) {
 }
 
 /// A heading wrong by half a degree, as two tags at a chamber give it.
-TEST(EncodersSins, Be6HeadingOfHalfADegreeKeepsTheErrorAcrossWithinOnePercent) {
+/// Without the map. With it the error stays within 1 %: `sins_dr_road` of the configuration, judged by
+/// test_replay.
+TEST(EncodersSins, Be6HeadingOfHalfADegreeAndTheGyrosBiasGrowAcross) {
   WheelScene scene = sceneOf("dual_tag_start");
   scene.from = 10.0;
-  const WheelRuns all = testing::wheelRuns(scene, kRuns, [](EstimatorConfig& config, std::uint64_t seed) {
+  WheelRuns all = testing::wheelRuns(scene, kRuns, [](EstimatorConfig& config, std::uint64_t seed) {
     const double off = radians(seed % 2 == 0 ? 0.5 : -0.5);
     if (auto* sins = std::get_if<SinsDrConfig>(&config)) sins->start.pose.yaw += off;
     if (auto* wheels = std::get_if<DeadReckoningConfig>(&config)) wheels->start.pose.yaw += off;
   });
+  all.erase("sins_dr_road");  // no roadway here
   testing::printFigures("B-E6", all);
   for (const auto& [name, runs] : all) {
     const double worst =
@@ -108,9 +111,11 @@ TEST(EncodersSins, Be6HeadingOfHalfADegreeKeepsTheErrorAcrossWithinOnePercent) {
     std::printf("%s: across the way at the end, p95 %.2f %% of %.0f m\n", name.c_str(), 100.0 * worst,
                 runs.front().way);
   }
-  EXPECT_LE(
-      quantile(all.at("sins_dr"), 0.95, [](const WheelRun& r) { return std::abs(r.end_across) / r.way; }),
-      0.01);
+  // Half a degree is 0.87 %; five seconds of standing still leave 0.0045 deg/s of bias, another 0.6 % in 150
+  // s.
+  const auto share = [](const WheelRun& r) { return std::abs(r.end_across) / r.way; };
+  EXPECT_NEAR(quantile(all.at("sins_dr"), 0.5, share), 0.0087, 0.003);
+  EXPECT_LE(quantile(all.at("sins_dr"), 0.95, share), 0.0087 + 2.0 * 0.006);
 }
 
 TEST(EncodersSins, VehicleScale) {
