@@ -39,25 +39,35 @@ BodyVelocity bodyVelocity(const EskfState& x, const Eigen::Vector3d& lever, cons
   return {unit + (gyro - x.gyro_bias).cross(lever), R_body_map, skew(unit), skew(lever)};
 }
 
-/// G = P H', and H G.
+/// G = P H', and H G. Fifteen rows are four lots of four of which the last two share one.
 POS_WIDE double seenThrough(double* __restrict__ G, const double* __restrict__ P,
                             const double* __restrict__ by_p, const double* __restrict__ by_attitude) {
-  const double* P_p = P + n * p;
-  const double* P_th = P + n * th;
-  for (int i = 0; i < n; ++i) {
-    G[i] = by_p[0] * P_p[i] + by_p[1] * P_p[n + i] + by_p[2] * P_p[2 * n + i] + by_attitude[0] * P_th[i] +
-           by_attitude[1] * P_th[n + i] + by_attitude[2] * P_th[2 * n + i];
+#pragma GCC unroll 4
+  for (const int i : {0, 4, 8, 11}) {
+    const double* P_p = P + n * p + i;
+    const double* P_th = P + n * th + i;
+    const Four by_place = by_p[0] * four(P_p) + by_p[1] * four(P_p + n) + by_p[2] * four(P_p + 2 * n);
+    four(G + i) = by_place + by_attitude[0] * four(P_th) + by_attitude[1] * four(P_th + n) +
+                  by_attitude[2] * four(P_th + 2 * n);
   }
-  double variance = 0.0;
-  for (int k = 0; k < 3; ++k) variance += by_p[k] * G[p + k] + by_attitude[k] * G[th + k];
-  return variance;
+  return (by_p[0] * G[p] + by_p[1] * G[p + 1] + by_p[2] * G[p + 2]) +
+         (by_attitude[0] * G[th] + by_attitude[1] * G[th + 1] + by_attitude[2] * G[th + 2]);
 }
 
 /// P <- P - W W'; symmetric to the last bit.
 POS_WIDE void takeOff(double* __restrict__ P, const double* __restrict__ W) {
+  const Four w0 = four(W);
+  const Four w4 = four(W + 4);
+  const Four w8 = four(W + 8);
+  const Four w11 = four(W + 11);
   for (int j = 0; j < n; ++j) {
-    const double a = W[j];
-    for (int i = 0; i < n; ++i) P[n * j + i] -= W[i] * a;
+    double* column = P + n * j;
+    const double x = W[j];
+    const Four last = four(column + 11) - x * w11;  // before row 11 is written
+    four(column) -= x * w0;
+    four(column + 4) -= x * w4;
+    four(column + 8) -= x * w8;
+    four(column + 11) = last;
   }
 }
 

@@ -7,3 +7,16 @@
 #else
 #define POS_WIDE
 #endif
+
+namespace pos {
+
+/// Four neighbouring numbers, in one register where there is one; any address of a double will do.
+using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+inline Four& four(double* x) {
+  return *reinterpret_cast<Four*>(x);
+}
+inline const Four& four(const double* x) {
+  return *reinterpret_cast<const Four*>(x);
+}
+
+}  // namespace pos
