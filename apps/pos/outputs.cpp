@@ -11,6 +11,7 @@
 #include "pos/report/html.hpp"
 #include "pos/report/summary_json.hpp"
 #include "pos/report/text.hpp"
+#include "viewer_page.hpp"
 
 namespace pos::app {
 namespace {
@@ -59,10 +60,13 @@ void writeRunJson(const io::RunFolder& folder, const Inputs& inputs) {
   writeFile(folder.runJson(), runJson(inputs));
 }
 
-void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary,
+              const std::optional<std::string>& viewer) {
   writeRunJson(folder, inputs);
   writeFile(folder.summaryJson(), report::summaryJson(summary));
-  writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
+  writeFile(folder.reportHtml(),
+            report::reportHtml(summary, io::resolvedYaml(inputs.config), viewer ? kViewerFile : ""));
+  if (viewer) writeViewer(folder.path(), inputs, *viewer);
   const fs::path figures = folder.path() / "figures";
   fs::create_directories(figures);
   for (const report::NamedFigure& figure : report::figures(summary))

@@ -27,8 +27,10 @@ std::optional<io::RunFolder> openRunFolder(const OutputOptions& options);
 
 /// run.json alone: what went in, for a run whose results are judged later.
 void writeRunJson(const io::RunFolder& folder, const Inputs& inputs);
-/// run.json, summary.json, report.html and the figures.
-void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary);
+/// run.json, summary.json, report.html and the figures; viewer.html where there is a `viewer` to fill
+/// (viewerTemplate).
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary,
+              const std::optional<std::string>& viewer);
 
 /// The comparison table, or the summary as JSON.
 void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,

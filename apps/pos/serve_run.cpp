@@ -189,6 +189,10 @@ std::unique_ptr<Session> runSession(const std::string& folder, const Clock& cloc
   return std::make_unique<RunShow>(folder, inputsOf(folder, voice), clock);
 }
 
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock) {
+  return std::make_unique<RunShow>(folder, inputs, clock);
+}
+
 std::unique_ptr<Session> mapSession(const std::string& map) {
   Inputs inputs;
   inputs.map = std::make_shared<const map::TunnelMap>(mapOf(map));

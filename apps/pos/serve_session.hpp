@@ -46,6 +46,8 @@ class Session {
 };
 
 std::unique_ptr<Session> runSession(const std::string& folder, const Clock& clock, const Voice& voice);
+/// The same where the inputs of the run are at hand.
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock);
 
 struct ReplayOptions {
   bool play = false;  ///< begins by itself

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "pos/core/error.hpp"
-#include "pos/io/files.hpp"
 #include "pos/io/scenario_yaml.hpp"
 #include "progress.hpp"
 #include "serve_http.hpp"
@@ -104,21 +103,6 @@ serve::Guard guardOf(const Options& options, const Voice& voice) {
   return {.loopback = false, .token = options.token.empty() ? newToken() : options.token};
 }
 
-/// Beside the installed program, or in the source tree it was built in.
-std::optional<fs::path> interfaceFolder(const Options& options) {
-  if (!options.interface.empty()) {
-    io::existingFile(fs::path(options.interface) / "index.html", Complaint{.key = "--interface"});
-    return options.interface;
-  }
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  for (const char* place : {"../share/pos/hmi", "../../../apps/hmi/dist"}) {
-    const fs::path folder = (program.parent_path() / place).lexically_normal();
-    if (!failed && fs::exists(folder / "index.html")) return folder;
-  }
-  return std::nullopt;
-}
-
 /// Ends when the user does, or when the show cannot go on.
 void watch(HttpServer& server, Session& session, Hub& hub, const std::atomic<bool>& done) {
   while (!done && !interrupted() && session.fault() == nullptr)
@@ -147,7 +131,7 @@ ExitCode runServe(const Options& options, const Voice& voice) {
             .ticker = ticker,
             .map = map ? &*map : nullptr,
             .guard = guard,
-            .assets = assetsOf(interfaceFolder(options)),
+            .assets = assetsOf(interfaceFolder(options.interface)),
             .connections = options.connections};
   HttpServer server(site);
   const int port = server.bind(options.address, options.port);

@@ -41,6 +41,18 @@ std::string comparisonSection(const eval::RunSummary& run) {
   return html + alignmentNote(run) + (truth_sigma.empty() ? "" : " " + escaped(truth_sigma)) + "</p>\n";
 }
 
+/// Folded away, so that the wheel scrolls the report and the file is read only when it is wanted.
+std::string viewerSection(const std::string& viewer) {
+  if (viewer.empty()) return "";
+  const std::string file = escaped(viewer);
+  return "<h2 id=\"viewer\">The run to play</h2>\n<details><summary>Plan, tracks and charts over "
+         "time</summary>"
+         "<iframe class=\"viewer\" loading=\"lazy\" title=\"The run to play\" src=\"" +
+         file + "\"></iframe></details>\n<p class=\"note\"><a href=\"" + file +
+         "\">Open it in a window of its own.</a> It is the file " + file +
+         " beside this one; send both to send it along.</p>\n";
+}
+
 std::string reasonsText(const eval::Tally& tally) {
   std::string text;
   for (const auto& [reason, count] : tally.reasons) {
@@ -141,10 +153,11 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 
 }  // namespace
 
-std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config) {
+std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config,
+                       const std::string& viewer) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
   html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
-  html += figureSection(figures(run));
+  html += viewerSection(viewer) + figureSection(figures(run));
   html += verdictSection(run) + diagnosticsSection(run);
   return html + configSection(resolved_config) + pageEnd();
 }

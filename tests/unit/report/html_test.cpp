@@ -57,6 +57,16 @@ TEST(ReportHtml, NeedsNoNetwork) {
   EXPECT_FALSE(std::regex_search(html, std::regex("href=\"(?!data:)")));
 }
 
+TEST(ReportHtml, LeadsToTheRunThatLiesBesideItAndToNothingWhereThereIsNone) {
+  const std::string without_viewer = reportHtml(demo(), "a: 1");
+  EXPECT_THAT(without_viewer, Not(HasSubstr("<iframe")));
+  EXPECT_THAT(without_viewer, Not(HasSubstr("id=\"viewer\"")));
+  const std::string html = reportHtml(demo(), "a: 1", "viewer.html");
+  EXPECT_THAT(html, HasSubstr("src=\"viewer.html\""));
+  EXPECT_THAT(html, HasSubstr("href=\"viewer.html\""));
+  EXPECT_LT(html.find("id=\"viewer\""), html.find("<h2>Figures"));
+}
+
 TEST(ReportHtml, EscapesNamesFromOutside) {
   eval::RunSummary run = demo();
   run.estimators.front().name = "<b>&\"x\"";
