@@ -58,6 +58,7 @@ std::string runJson(Session& session) {
   run["tracks"] = Json::array();
   for (const Json& name : run.at("info").at("tracks"))
     run["tracks"].push_back(trackJson(stage, name.get<std::string>()));
+  run["locks"] = Json::parse(stage.lockChangesJson());
   run["background"] = map ? pictureJson(map->file()) : Json(nullptr);
   return run.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

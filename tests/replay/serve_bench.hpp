@@ -28,8 +28,10 @@ class Serve : public ::testing::Test {
         "  - {id: 1, name: A, x_m: 0, y_m: -10, z_m: 0}\n  - {id: 2, name: B, x_m: 100, y_m: -10, z_m: 0}\n"
         "  - {id: 3, name: C, x_m: 0, y_m: 10, z_m: 0}\n  - {id: 4, name: D, x_m: 100, y_m: 10, z_m: 0}\n"
         "roadways:\n  - {id: R12, width_m: 21, height_m: 6, centreline: [{x_m: 0, y_m: 0, z_m: 0}, {x_m: "
-        "100, "
-        "y_m: 0, z_m: 0}]}\n");
+        "100, y_m: 0, z_m: 0}]}\n"
+        "chambers:\n  - {id: c1, roadway: R12, chainage_m: 50, side: right, length_m: 8, depth_m: 3, "
+        "capacity: 1}\n"
+        "routes:\n  - {id: through, legs: [{roadway: R12, from_m: 0, to_m: 100}]}\n");
     bench_.write(
         "run.yaml",
         "schema: 1\nname: hall\nmap: map.yaml\nrecord: {max_rate_hz: 50}\nintervals: {}\nestimators:\n"

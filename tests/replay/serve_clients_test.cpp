@@ -100,6 +100,7 @@ TEST_F(Serve, ACommandLineThatMakesNoSenseIsRefused) {
   EXPECT_THAT(refusal({"--run", "a", "--config", "run.yaml"}), HasSubstr("cannot be shown together"));
   EXPECT_THAT(refusal({"--config", "run.yaml", "--live", "-"}), HasSubstr("--out"));
   EXPECT_THAT(refusal({"--live", "-", "--out", "x", "--map", "map.yaml"}), HasSubstr("--config"));
+  EXPECT_THAT(refusal({"--map", "map.yaml", "--route", "through"}), HasSubstr("--route"));
   const RunResult run = bench_.pos({"serve", "--run", "nowhere"});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_THAT(run.err, HasSubstr("run.json"));

@@ -15,7 +15,7 @@ using ::testing::StartsWith;
 
 TEST_F(Serve, AFinishedRunIsShownAndPlayed) {
   makeRun(400);
-  Running server(bench_, {"serve", "--run", "run", "--port", "0"});
+  Running server(bench_, {"serve", "--run", "run", "--route", "through", "--port", "0"});
   const int port = server.numberAfter(kAddress);
   const json info = jsonOf(get(port, "/api/info"));
   EXPECT_EQ(info.at("mode"), "run");
@@ -28,6 +28,7 @@ TEST_F(Serve, AFinishedRunIsShownAndPlayed) {
   EXPECT_NEAR(at.at("estimators")[0].at("pose").at("x_m").get<double>(), 12.0, 0.5);
   EXPECT_THAT(at.at("estimators")[0].at("place").at("words").get<std::string>(), StartsWith("R12, "));
   EXPECT_EQ(at.at("estimators")[0].at("place").at("lock"), "held");
+  EXPECT_EQ(at.at("locks")[1].at("state"), "held") << "by the rules it may drive on to the end";
 
   const HttpAnswer track = get(port, "/api/tracks/ekf?points=50&columns=x_m,y_m");
   ASSERT_EQ(track.status, 200);
@@ -77,6 +78,8 @@ TEST_F(Serve, AReplayCanBePlayedSoughtAndHurried) {
   EXPECT_EQ(there.at("sources").size(), 2U);
   EXPECT_EQ(there.at("anchors").size(), 4U);
   EXPECT_EQ(there.at("anchors")[0].at("seen"), "seen");
+  EXPECT_EQ(there.at("locks")[0].at("state"), "held");
+  EXPECT_EQ(there.at("locks")[1].at("state"), "free") << "by its place it is not there";
   EXPECT_NEAR(there.at("sources")[0].at("period_s").get<double>(), 0.05, 0.001);
 
   (void)command(port, R"({"do": "seek", "stamp_s": 1002})");

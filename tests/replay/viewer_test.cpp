@@ -40,7 +40,8 @@ TEST_F(Viewer, AReplaysFolderHoldsAPageWithTheRunInsideWhichPosReportMakesAgain)
   EXPECT_EQ(run.at("info").at("name"), "hall");
   EXPECT_EQ(run.at("info").at("mode"), "run");
   EXPECT_EQ(run.at("map").at("type"), "FeatureCollection");
-  EXPECT_EQ(run.at("intervals").size(), 1U);
+  EXPECT_EQ(run.at("intervals").size(), 2U);
+  EXPECT_EQ(run.at("locks").at(0).at("states"), (json{"held", "free"}));
   EXPECT_EQ(run.at("events").at(0).at("kind"), "interval_entry");
   ASSERT_EQ(run.at("tracks").size(), 2U);
   EXPECT_EQ(run.at("tracks").at(0).at("name"), "ekf");

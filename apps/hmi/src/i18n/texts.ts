@@ -95,7 +95,7 @@ export const texts = {
   axisTime: ['time, s', '时间，秒'],
   axisError: ['error in plan, m', '平面误差，米'],
   axisSigma: ['sigma of position, m', '位置标准差，米'],
-  axisNis: ['NIS per degree of freedom', '每自由度 NIS'],
+  axisNis: ['NIS per dof', '每自由度 NIS'],
   axisChainage: ['chainage, m', '里程，米'],
   noChart: ['Nothing to draw here: {why}', '此处无图：{why}'],
   noTruth: ['this run has no truth', '该运行没有真值'],
