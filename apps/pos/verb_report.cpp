@@ -44,7 +44,7 @@ ExitCode runReport(const Options& options, const Voice& voice) {
   const Inputs inputs = loadInputs(io::runConfigFrom(io::parseYaml(yaml, origin), mrptShare()));
   const Replayed result = replayed(inputs, nullptr, [](std::uint64_t, Stamp) { return true; });
   const fs::path out = options.out.empty() ? fs::path(options.folder) / "report.html" : fs::path(options.out);
-  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml));
+  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml, extrasOf(inputs, result)));
   voice.say("report: " + out.string());
   return ExitCode::Ok;
 }
