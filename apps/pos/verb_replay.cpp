@@ -65,7 +65,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
   }();
   sayLeftOut(result.tally, voice);
   const eval::RunSummary summary = summaryOf(inputs, result);
-  if (folder) writeRun(*folder, inputs, summary, viewer);
+  if (folder) writeRun(*folder, inputs, summary, extrasOf(inputs, result), viewer);
   show(summary, options.outputs, folder ? &*folder : nullptr, voice);
   if (result.interrupted) {
     voice.warn("interrupted: the results cover the log up to where it was stopped");

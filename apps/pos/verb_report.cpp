@@ -48,7 +48,9 @@ ExitCode runReport(const Options& options, const Voice& voice) {
   const bool in_folder = options.out.empty();
   const fs::path out = in_folder ? fs::path(options.folder) / "report.html" : fs::path(options.out);
   const auto viewer = in_folder ? viewerTemplate(options.interface) : std::nullopt;
-  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml, viewer ? kViewerFile : ""));
+  report::ReportExtras extras = extrasOf(inputs, result);
+  if (viewer) extras.viewer = kViewerFile;
+  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml, extras));
   if (viewer) writeViewer(options.folder, inputs, *viewer);
   voice.say("report: " + out.string());
   return ExitCode::Ok;

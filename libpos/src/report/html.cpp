@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_section.hpp"
 #include "html_parts.hpp"
 #include "pos/report/comparison.hpp"
+#include "pos/report/face_files.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/text.hpp"
 
@@ -154,10 +156,14 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 }  // namespace
 
 std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config,
-                       const std::string& viewer) {
+                       const ReportExtras& extras) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
   html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
-  html += viewerSection(viewer) + figureSection(figures(run));
+  html += faceSection(extras.faces) + viewerSection(extras.viewer);
+  std::vector<NamedFigure> all = figures(run);
+  for (const NamedFigure& figure : faceFigures(extras.faces)) all.push_back(figure);
+  all.insert(all.end(), extras.pictures.begin(), extras.pictures.end());
+  html += figureSection(all);
   html += verdictSection(run) + diagnosticsSection(run);
   return html + configSection(resolved_config) + pageEnd();
 }

@@ -61,7 +61,7 @@ TEST(ReportHtml, LeadsToTheRunThatLiesBesideItAndToNothingWhereThereIsNone) {
   const std::string without_viewer = reportHtml(demo(), "a: 1");
   EXPECT_THAT(without_viewer, Not(HasSubstr("<iframe")));
   EXPECT_THAT(without_viewer, Not(HasSubstr("id=\"viewer\"")));
-  const std::string html = reportHtml(demo(), "a: 1", "viewer.html");
+  const std::string html = reportHtml(demo(), "a: 1", {.viewer = "viewer.html"});
   EXPECT_THAT(html, HasSubstr("src=\"viewer.html\""));
   EXPECT_THAT(html, HasSubstr("href=\"viewer.html\""));
   EXPECT_LT(html.find("id=\"viewer\""), html.find("<h2>Figures"));
