@@ -45,7 +45,16 @@ std::vector<serve::Occupancy> LockWatch::take(const Estimate& estimate) {
     tell(estimate.stamp, interval::Begin{kVehicle, driver_.way()});
     begun_ = true;
   }
-  driver_.drive(route_->network(), estimate, [&](const auto& what) { tell(estimate.stamp, what); });
+  driver_.drive(route_->network(), estimate, [&](const auto& what) {
+    if (!placed_ && std::holds_alternative<interval::Report>(what)) {  // wherever on the way the show begins
+      tell(estimate.stamp, interval::Override{.action = interval::Override::Action::Trust,
+                                              .vehicle = kVehicle,
+                                              .who = "pos serve",
+                                              .why = "first position"});
+      placed_ = true;
+    }
+    tell(estimate.stamp, what);
+  });
   tell(estimate.stamp, interval::Tick{});
   const serve::Occupancy occupied =
       engine_.view(kVehicle).believed || driver_.home() ? serve::Occupancy::Held : serve::Occupancy::Doubtful;

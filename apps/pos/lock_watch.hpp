@@ -61,6 +61,7 @@ class LockWatch {
   interval::LockEngine engine_;
   LockDriver driver_;
   bool begun_ = false;
+  bool placed_ = false;
 };
 
 }  // namespace pos::app
