@@ -32,7 +32,7 @@ EskfTurn turnOf(double n2) {
 inline void setColumns(double (*__restrict__ columns)[4], const double* __restrict__ block) {
   four(columns[0]) = four(block);
   four(columns[1]) = four(block + 3);
-  four(columns[2]) = __builtin_shufflevector(four(block + 5), four(block + 5), 1, 2, 3, 3);
+  four(columns[2]) = POS_PICKED(four(block + 5), four(block + 5), 1, 2, 3, 3);
 }
 
 /// Columns of scale (x y' + d I + [s x]), the shape of every block in body axes.
@@ -107,14 +107,14 @@ inline void turnOver(double* __restrict__ P, const double (*__restrict__ M)[16],
   const Four r1 = four(M[row + 1] + column);
   const Four r2 = four(M[row + 2] + column);
   const Four r3 = four(M[row + 3] + column);
-  const Four even01 = __builtin_shufflevector(r0, r1, 0, 4, 2, 6);
-  const Four odd01 = __builtin_shufflevector(r0, r1, 1, 5, 3, 7);
-  const Four even23 = __builtin_shufflevector(r2, r3, 0, 4, 2, 6);
-  const Four odd23 = __builtin_shufflevector(r2, r3, 1, 5, 3, 7);
-  four(P + n * column + row) = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
-  four(P + n * (column + 1) + row) = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
-  four(P + n * (column + 2) + row) = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
-  four(P + n * (column + 3) + row) = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+  const Four even01 = POS_PICKED(r0, r1, 0, 4, 2, 6);
+  const Four odd01 = POS_PICKED(r0, r1, 1, 5, 3, 7);
+  const Four even23 = POS_PICKED(r2, r3, 0, 4, 2, 6);
+  const Four odd23 = POS_PICKED(r2, r3, 1, 5, 3, 7);
+  four(P + n * column + row) = POS_PICKED(even01, even23, 0, 1, 4, 5);
+  four(P + n * (column + 1) + row) = POS_PICKED(odd01, odd23, 0, 1, 4, 5);
+  four(P + n * (column + 2) + row) = POS_PICKED(even01, even23, 2, 3, 6, 7);
+  four(P + n * (column + 3) + row) = POS_PICKED(odd01, odd23, 2, 3, 6, 7);
 }
 
 }  // namespace
@@ -152,7 +152,7 @@ POS_WIDE void setRows(EskfRows& __restrict__ F, const double* __restrict__ R,
     F.th[3 + j][3] = 0.0;
     for (int i = 0; i < 3; ++i) F.th[3 + j][i] = J_l[i][j];  // -J_r(theta) dt = -J_l(theta)' dt
   }
-  const Four r[3] = {four(R), four(R + 3), __builtin_shufflevector(four(R + 5), four(R + 5), 1, 2, 3, 3)};
+  const Four r[3] = {four(R), four(R + 3), POS_PICKED(four(R + 5), four(R + 5), 1, 2, 3, 3)};
   four(F.v[0]) = u[1] * r[2] - u[2] * r[1];  // -R [u x]
   four(F.v[1]) = u[2] * r[0] - u[0] * r[2];
   four(F.v[2]) = u[0] * r[1] - u[1] * r[0];
