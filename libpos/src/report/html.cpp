@@ -144,6 +144,7 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
   html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
+  html += switchingSection(run);
   html += figureSection(figures(run));
   html += verdictSection(run) + diagnosticsSection(run);
   return html + configSection(resolved_config) + pageEnd();
