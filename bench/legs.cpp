@@ -61,7 +61,9 @@ void sweep_simulated(benchmark::State& state) {
   timer.report(state, "ns_per_sweep", kSweeps);
 }
 
-BENCHMARK_CAPTURE(find, whole_row, {}, pos::lidar::ArcWeights::Noise)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(find, whole_row, {}, pos::lidar::ArcWeights::Noise)
+    ->Unit(benchmark::kMillisecond)
+    ->Apply(pos::bench::reportLargest);
 BENCHMARK_CAPTURE(find, whole_row_robust, {}, pos::lidar::ArcWeights::Huber)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(find, two_legs_behind, {.from = -11.5, .to = -8.5}, pos::lidar::ArcWeights::Noise)
     ->Unit(benchmark::kMillisecond);

@@ -22,14 +22,14 @@ ShearerFilter started() {
   return filter;
 }
 
-void sample(benchmark::State& state) {
+void shearer_sample(benchmark::State& state) {
   ShearerFilter filter = started();
   const pos::bench::PerItem timer;
   for (auto _ : state) benchmark::DoNotOptimize(filter.step(kSample));
   timer.report(state, "ns_per_sample", 1);
 }
 
-void scan_ours(benchmark::State& state) {
+void shearer_scan_ours(benchmark::State& state) {
   ShearerFilter filter = started();
   const Eigen::Matrix3d R = ShearerConfig{}.legs.sigma.cwiseAbs2().asDiagonal();
   const pos::bench::PerItem timer;
@@ -40,7 +40,7 @@ void scan_ours(benchmark::State& state) {
   timer.report(state, "ns_per_scan", 1);
 }
 
-void scan_dense(benchmark::State& state) {
+void shearer_scan_dense(benchmark::State& state) {
   using Square = Eigen::Matrix<double, 18, 18>;
   Square P = 1e-4 * Square::Identity();
   Square Phi = Square::Identity();
@@ -64,7 +64,7 @@ void scan_dense(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(sample);
-BENCHMARK(scan_ours);
-BENCHMARK(scan_dense);
+BENCHMARK(shearer_sample);
+BENCHMARK(shearer_scan_ours);
+BENCHMARK(shearer_scan_dense);
 BENCHMARK_MAIN();

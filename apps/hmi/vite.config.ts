@@ -1,8 +1,10 @@
 import { defineConfig } from 'vitest/config';
+import { commonHead } from './vite.head';
 
 /** The page that `pos serve` hands out; during development it asks a server on the usual port. */
 export default defineConfig({
   base: './',
+  plugins: [commonHead()],
   build: { outDir: 'dist', target: 'es2022', modulePreload: false, chunkSizeWarningLimit: 900 },
   server: { proxy: { '/api': 'http://127.0.0.1:8765' } },
   test: {

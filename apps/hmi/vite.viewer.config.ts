@@ -1,4 +1,5 @@
 import { defineConfig, type Plugin } from 'vite';
+import { commonHead } from './vite.head';
 
 /** One file: scripts and styles are put into the page, so that it opens from disk and needs no other file. */
 function insideThePage(): Plugin {
@@ -31,7 +32,7 @@ function moved(html: string, from: RegExp, left: string, script: string): string
 
 export default defineConfig({
   base: './',
-  plugins: [insideThePage()],
+  plugins: [commonHead(), insideThePage()],
   build: {
     outDir: 'dist',
     emptyOutDir: false,

@@ -97,6 +97,14 @@ Complaint ofRun(Complaint complaint, std::uint64_t run, const std::string& repea
   return complaint;
 }
 
+void addFaces(eval::CampaignRun& record, const std::vector<eval::EstimatorFace>& faces) {
+  for (eval::CampaignEntry& entry : record.estimators) {
+    for (const auto& [name, face] : faces) {
+      if (name == entry.name) entry.metrics.merge(eval::faceMetrics(face));
+    }
+  }
+}
+
 /// The record of one run; empty when it was stopped.
 std::string recordOf(const CampaignPlan& plan, std::uint64_t run, const Stop& stop) {
   const std::uint64_t seed = eval::seedOfRun(plan.inputs.config.seed, run);
@@ -107,8 +115,9 @@ std::string recordOf(const CampaignPlan& plan, std::uint64_t run, const Stop& st
     if (result.interrupted) return "";
     if (result.log_end.damaged)
       throw DataError(Complaint{.what = "the log is damaged", .got = result.log_end.message});
-    return report::campaignRunJson(eval::campaignRun(summaryOf(inputs, result), run, repeat),
-                                   plan.manifest.fingerprint());
+    eval::CampaignRun record = eval::campaignRun(summaryOf(inputs, result), run, repeat);
+    addFaces(record, extrasOf(inputs, result).faces);
+    return report::campaignRunJson(record, plan.manifest.fingerprint());
   } catch (const DataError& error) {
     throw DataError(ofRun(error.complaint(), run, repeat));
   } catch (const ConfigError& error) {

@@ -1,9 +1,6 @@
 #include "lock_yard.hpp"
 
-#include <algorithm>
-
-#include "pos/core/error.hpp"
-#include "pos/io/text.hpp"
+#include "lock_driver.hpp"
 #include "pos/traffic/ways.hpp"
 #include "verb_map.hpp"
 
@@ -41,17 +38,7 @@ io::LockScene LockYard::scene() const {
 }
 
 map::RouteLine LockYard::route(const std::string& id) const {
-  std::vector<std::string> ids;
-  for (const map::Route& route : network_.map().routes) {
-    if (route.id == id) return map::RouteLine(network_, route);
-    ids.push_back(route.id);
-  }
-  throw ConfigError(
-      Complaint{.what = "the map has no such route",
-                .key = "route",
-                .got = id,
-                .expected = ids.empty() ? "no route at all" : "one of: " + io::text::joined(ids),
-                .suggestion = io::text::didYouMean(id, ids)});
+  return routeOf(network_, id);
 }
 
 }  // namespace pos::app

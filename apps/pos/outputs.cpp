@@ -7,10 +7,12 @@
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/io/sha256.hpp"
 #include "pos/report/comparison.hpp"
+#include "pos/report/face_files.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/html.hpp"
 #include "pos/report/summary_json.hpp"
 #include "pos/report/text.hpp"
+#include "viewer_page.hpp"
 
 namespace pos::app {
 namespace {
@@ -59,14 +61,26 @@ void writeRunJson(const io::RunFolder& folder, const Inputs& inputs) {
   writeFile(folder.runJson(), runJson(inputs));
 }
 
-void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary) {
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary,
+              report::ReportExtras extras, const std::optional<std::string>& viewer) {
+  if (viewer) extras.viewer = kViewerFile;
   writeRunJson(folder, inputs);
   writeFile(folder.summaryJson(), report::summaryJson(summary));
-  writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config)));
+  writeFile(folder.reportHtml(), report::reportHtml(summary, io::resolvedYaml(inputs.config), extras));
+  if (viewer) writeViewer(folder.path(), inputs, *viewer);
   const fs::path figures = folder.path() / "figures";
   fs::create_directories(figures);
   for (const report::NamedFigure& figure : report::figures(summary))
     writeFile(figures / (figure.name + ".svg"), figure.svg);
+  for (const report::NamedFigure& picture : extras.pictures)
+    writeFile(figures / (picture.name + ".svg"), picture.svg);
+  for (const report::NamedFigure& figure : report::faceFigures(extras.faces))
+    writeFile(figures / (figure.name + ".svg"), figure.svg);
+  for (const auto& [name, face] : extras.faces) {
+    writeFile(folder.path() / (name + ".face_track.csv"), report::faceTrackCsv(face));
+    writeFile(folder.path() / (name + ".face_bend.csv"), report::faceProfileCsv(face));
+    writeFile(folder.path() / (name + ".face_creep.csv"), report::faceOperationsCsv(face));
+  }
 }
 
 void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,

@@ -10,6 +10,7 @@
 #include "pos/eval/requirement.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/run_folder.hpp"
+#include "pos/report/html.hpp"
 
 namespace pos::app {
 
@@ -27,8 +28,10 @@ std::optional<io::RunFolder> openRunFolder(const OutputOptions& options);
 
 /// run.json alone: what went in, for a run whose results are judged later.
 void writeRunJson(const io::RunFolder& folder, const Inputs& inputs);
-/// run.json, summary.json, report.html and the figures.
-void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary);
+/// run.json, summary.json, report.html and the figures; for a shearer the tables of the face; viewer.html
+/// where there is a `viewer` to fill (viewerTemplate).
+void writeRun(const io::RunFolder& folder, const Inputs& inputs, const eval::RunSummary& summary,
+              report::ReportExtras extras, const std::optional<std::string>& viewer);
 
 /// The comparison table, or the summary as JSON.
 void show(const eval::RunSummary& summary, const OutputOptions& options, const io::RunFolder* folder,

@@ -110,7 +110,10 @@ void Pass::flush() {
 Replayed Pass::finished(const io::LogEnd& end) {
   finish();
   result_.log_end = end;
-  for (Recorder& recorder : recorders_) result_.records.push_back(recorder.finish());
+  for (Recorder& recorder : recorders_) {
+    if (auto picture = recorder.sweepPicture()) result_.pictures.push_back(std::move(*picture));
+    result_.records.push_back(recorder.finish());
+  }
   if (end.damaged) note({result_.last, "", "log_damaged", "", end.message});
   if (events_) events_->close();
   return std::move(result_);

@@ -62,6 +62,7 @@ IngestReport Recorder::ingest(const Measurement& measurement) {
   const auto spent = std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - before);
   if (report.verdict != Verdict::Unsupported && !ears_)
     record_.compute.add(spent);  // what it has no use for would flatter it
+  if (!ears_) pictures_.look(*estimator_, measurement, report);
   note(measurement, report);
   return report;
 }
@@ -110,6 +111,17 @@ void Recorder::watchSwitching(const Estimate& estimate) {
 
 std::vector<io::RunEvent> Recorder::takeEvents() {
   return watch_ ? watch_->takeEvents() : std::vector<io::RunEvent>{};
+}
+
+std::optional<report::NamedFigure> Recorder::sweepPicture() const {
+  if (!pictures_.picture()) return std::nullopt;
+  report::LegPicture picture = *pictures_.picture();
+  picture.title += ", as " + name() + " took it";
+  return report::NamedFigure{
+      "legs_" + name(), picture.title,
+      "Returns as measured; legs corrected by what the estimator knows of the scanner. The "
+      "number beside a leg is how far from its support's expected place it was found.",
+      report::drawingSvg(report::legDrawing(picture))};
 }
 
 eval::EstimatorRecord Recorder::finish() {

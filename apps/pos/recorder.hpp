@@ -10,6 +10,8 @@
 #include "pos/estimation/estimator.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/run_folder.hpp"
+#include "pos/report/figures.hpp"
+#include "sweep_pictures.hpp"
 
 namespace pos::app {
 
@@ -53,6 +55,8 @@ class Recorder {
   /// What is in the files so far goes to the disk.
   void flush();
   Diagnostics diagnostics() const { return estimator_->diagnostics(); }
+  /// A picture of a sweep with legs, where the estimator used one.
+  std::optional<report::NamedFigure> sweepPicture() const;
   /// Closes the files and hands out the record.
   eval::EstimatorRecord finish();
 
@@ -69,6 +73,7 @@ class Recorder {
   std::unique_ptr<RecorderFiles> files_;
   std::unique_ptr<IntervalWatch> watch_;
   std::optional<RecorderEars> ears_;
+  SweepPictures pictures_;
   std::optional<Stamp> last_;  ///< of the estimate recorded last
   Duration shortest_step_{};
   io::EpochVerdicts epoch_{};

@@ -30,6 +30,17 @@ std::vector<eval::TimeWindow> timeWindows(const Inputs& inputs, const Replayed& 
   return windows;
 }
 
+/// The face that a shearer of the configuration drives along.
+std::optional<eval::FaceLine> faceOf(const io::RunConfig& config, const std::string& estimator) {
+  for (const io::EstimatorEntry& entry : config.estimators) {
+    const auto* shearer = std::get_if<estimation::ShearerConfig>(&entry.config);
+    if (entry.name != estimator || shearer == nullptr) continue;
+    const estimation::FaceConfig& face = shearer->face;
+    return eval::FaceLine{.end_1 = {face.x, face.y}, .heading = face.heading, .length = face.length};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress) {
@@ -49,6 +60,18 @@ Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progr
   result.interrupted = interrupted;
   result.tally = source->tally();
   return result;
+}
+
+report::ReportExtras extrasOf(const Inputs& inputs, const Replayed& replayed) {
+  report::ReportExtras extras{.pictures = replayed.pictures};
+  for (const eval::EstimatorRecord& record : replayed.records) {
+    const auto line = faceOf(inputs.config, record.name);
+    if (!line) continue;
+    const Truth* truth = inputs.truth ? &*inputs.truth : nullptr;
+    extras.faces.push_back(
+        {record.name, eval::faceGeometry(record.estimates, truth, *line, record.diagnostics)});
+  }
+  return extras;
 }
 
 eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed) {

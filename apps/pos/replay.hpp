@@ -9,6 +9,7 @@
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/run_folder.hpp"
+#include "pos/report/html.hpp"
 
 namespace pos::app {
 
@@ -21,6 +22,7 @@ struct Replayed {
   io::LogEnd log_end;
   io::LogTally tally;
   bool interrupted = false;
+  std::vector<report::NamedFigure> pictures = {};        ///< of single readings, for the report
   std::shared_ptr<const IntervalGround> intervals = {};  ///< null where intervals are not evaluated
 };
 
@@ -29,6 +31,9 @@ using Progress = std::function<bool(std::uint64_t, Stamp)>;
 
 /// Runs every estimator of the configuration over its log. Files go to `folder` where there is one.
 Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress);
+
+/// The face by every shearer of the run, and pictures of what it saw.
+report::ReportExtras extrasOf(const Inputs& inputs, const Replayed& replayed);
 
 /// Records, truth and log judged together.
 eval::RunSummary summaryOf(const Inputs& inputs, const Replayed& replayed);

@@ -1,6 +1,5 @@
 #include "serve_answers.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "pos/core/error.hpp"
@@ -45,11 +44,9 @@ Answer mapAnswer(const Site& site) {
 
 Answer backgroundAnswer(const Site& site) {
   const fs::path& file = mapOf(site).file();
-  const auto background = io::readMapFile(file).map.background;
-  if (!background) notThere("the map has no background");
-  io::BackgroundPicture picture = io::loadPicture(file.parent_path() / background->file);
-  const bool png = picture.bytes.starts_with("\x89PNG");
-  return {.type = png ? "image/png" : "image/jpeg", .body = std::move(picture.bytes)};
+  std::optional<Asset> picture = backgroundOf(file);
+  if (!picture) notThere("the map has no background");
+  return {.type = std::move(picture->type), .body = std::move(picture->bytes)};
 }
 
 std::vector<serve::Column> columnsIn(const serve::Target& target) {
@@ -111,7 +108,7 @@ Answer apiAnswer(const Site& site, const serve::Target& target) {
   if (path == "/api/events") return eventsAnswer(site, target);
   if (path == "/api/state") return stateAnswer(site, target);
   serve::requireOnly(target, {});
-  if (path == "/api/info") return json(infoJson(site));
+  if (path == "/api/info") return json(infoJson(site.session, site.map, site.connections));
   if (path == "/api/tracks") return json(site.session.stage().tracksJson());
   if (path == "/api/intervals") return json(serve::intervalsJson(site.session.stage().scenery().names));
   if (path == "/api/summary") return fileOf(site, "summary.json", "application/json");
@@ -121,15 +118,16 @@ Answer apiAnswer(const Site& site, const serve::Target& target) {
   throw serve::notFound("there is nothing at " + path);
 }
 
-bool hasFile(const Site& site, const char* name) {
-  const fs::path* folder = site.session.folder();
+bool hasFile(const Session& session, const char* name) {
+  const fs::path* folder = session.folder();
   return folder != nullptr && fs::is_regular_file(*folder / name);
 }
 
 }  // namespace
 
-std::string infoJson(const Site& site) {
-  const Scenery& scenery = site.session.stage().scenery();
+std::string infoJson(Session& session, const serve::MapService* map,
+                     const serve::ConnectionRules& connections) {
+  const Scenery& scenery = session.stage().scenery();
   const auto seconds = [](const std::optional<Stamp>& stamp) {
     return stamp ? Json(secondsSinceOrigin(*stamp)) : Json(nullptr);
   };
@@ -138,24 +136,32 @@ std::string infoJson(const Site& site) {
             {"mode", serve::name(scenery.mode)},
             {"name", scenery.name},
             {"map", scenery.map_name},
-            {"map_editable", site.map != nullptr && site.map->editable()},
-            {"first_s", seconds(site.session.stage().first())},
-            {"last_s", seconds(site.session.stage().last())},
+            {"map_editable", map != nullptr && map->editable()},
+            {"first_s", seconds(session.stage().first())},
+            {"last_s", seconds(session.stage().last())},
             {"truth", scenery.reference.has_value()},
-            {"summary", hasFile(site, "summary.json")},
-            {"report", hasFile(site, "report.html")},
+            {"summary", hasFile(session, "summary.json")},
+            {"report", hasFile(session, "report.html")},
             {"intervals", scenery.intervals},
             {"estimators", Json::array()},
             {"tracks", Json::array()},
             {"columns", serve::columnNames()},
-            {"stale_after_s", site.connections.stale_after},
-            {"lost_after_s", site.connections.lost_after}};
+            {"stale_after_s", connections.stale_after},
+            {"lost_after_s", connections.lost_after}};
   if (scenery.reference || scenery.mode == serve::Mode::Live) info["tracks"].push_back(Stage::kTruth);
   for (const Scenery::Title& title : scenery.estimators) {
     info["estimators"].push_back({{"name", title.name}, {"type", title.type}});
     info["tracks"].push_back(title.name);
   }
   return info.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<Asset> backgroundOf(const fs::path& map_file) {
+  const auto background = io::readMapFile(map_file).map.background;
+  if (!background) return std::nullopt;
+  io::BackgroundPicture picture = io::loadPicture(map_file.parent_path() / background->file);
+  const bool png = picture.bytes.starts_with("\x89PNG");
+  return Asset{png ? "image/png" : "image/jpeg", std::move(picture.bytes)};
 }
 
 Answer answerToGet(Site& site, const serve::Target& target) {
@@ -187,37 +193,6 @@ Answer answerToPut(Site& site, const serve::Target& target, const std::string& b
   const std::string version = mapOf(site).save(body, if_match);
   return {.body = Json{{"version", version}}.dump(),
           .headers = {{"Cache-Control", "no-store"}, {"ETag", version}}};
-}
-
-Assets assetsOf(const std::optional<fs::path>& folder) {
-  static const std::map<std::string, std::string> kTypes{{".html", "text/html; charset=utf-8"},
-                                                         {".js", "text/javascript"},
-                                                         {".css", "text/css"},
-                                                         {".svg", "image/svg+xml"},
-                                                         {".png", "image/png"},
-                                                         {".json", "application/json"},
-                                                         {".ico", "image/x-icon"},
-                                                         {".woff2", "font/woff2"},
-                                                         {".webmanifest", "application/manifest+json"}};
-  Assets assets;
-  if (!folder) {
-    assets["/index.html"] = {
-        kTypes.at(".html"),
-        "<!doctype html><html lang=\"en\"><title>pos serve</title><h1>pos serve</h1>"
-        "<p>The server runs. The browser interface is not installed: build it in apps/hmi "
-        "(docs/howto/interface.md) and start again, or name its folder with "
-        "--interface.</p><p><a href=\"/api/info\">/api/info</a></p></html>"};
-    return assets;
-  }
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(*folder)) {
-    if (!entry.is_regular_file()) continue;
-    const auto type = kTypes.find(entry.path().extension().string());
-    std::ifstream file(entry.path(), std::ios::binary);
-    assets["/" + fs::relative(entry.path(), *folder).generic_string()] = {
-        type != kTypes.end() ? type->second : "application/octet-stream",
-        std::string(std::istreambuf_iterator<char>(file), {})};
-  }
-  return assets;
 }
 
 }  // namespace pos::app

@@ -3,27 +3,17 @@
 /// .cpp.
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "interface_files.hpp"
 #include "pos/serve/map_service.hpp"
 #include "pos/serve/request.hpp"
 #include "serve_hub.hpp"
 #include "serve_session.hpp"
 
 namespace pos::app {
-
-/// A file of the browser interface, or another whole answer.
-struct Asset {
-  std::string type = {};
-  std::string bytes = {};
-};
-/// By path ("/index.html"); read once, so that no request ever names a file.
-using Assets = std::map<std::string, Asset>;
-/// Of a folder; a page that says what is missing where there is none.
-Assets assetsOf(const std::optional<std::filesystem::path>& folder);
 
 /// All that requests are answered from.
 struct Site {
@@ -36,8 +26,11 @@ struct Site {
   serve::ConnectionRules connections = {};
 };
 
-/// `/api/info`.
-std::string infoJson(const Site& site);
+/// `/api/info`. `map` is null where there is no map file.
+std::string infoJson(Session& session, const serve::MapService* map,
+                     const serve::ConnectionRules& connections);
+/// The picture under the map, or nothing where it has none.
+std::optional<Asset> backgroundOf(const std::filesystem::path& map_file);
 
 class HttpServer {
  public:

@@ -74,7 +74,7 @@ class LiveShow final : public Session {
       : inputs_(std::move(inputs)),
         clock_(clock),
         folder_(io::RunFolder::create(options.folder, io::ExistingRun::Refuse)),
-        stage_(sceneryOf(inputs_, serve::Mode::Live)),
+        stage_(sceneryOf(inputs_, serve::Mode::Live, options.vehicle)),
         monitor_(options.connections, stage_.scenery().anchors),
         tape_(options.folder),
         feed_(
@@ -118,6 +118,7 @@ class LiveShow final : public Session {
                      .ended = input_ended_,
                      .first = stage_.first(),
                      .estimators = stage_.estimators(),
+                     .locks = stage_.locks(),
                      .connections = monitor_.at(clock_()),
                      .refused_lines = refused_lines_};
     const std::lock_guard lock(mutex_);

@@ -41,7 +41,7 @@ class ReplayShow final : public Session {
   ReplayShow(Inputs inputs, const ReplayOptions& options, const Clock& clock)
       : inputs_(std::move(inputs)),
         clock_(clock),
-        stage_(sceneryOf(inputs_, serve::Mode::Replay)),
+        stage_(sceneryOf(inputs_, serve::Mode::Replay, options.vehicle)),
         monitor_(options.connections, stage_.scenery().anchors),
         playhead_(Stamp{}) {
     setMapFile(inputs_);
@@ -82,6 +82,7 @@ class ReplayShow final : public Session {
     }
     show.truth = stage_.truthAt(*show.stamp);
     show.estimators = stage_.estimators();
+    show.locks = stage_.locks();
     show.connections = monitor_.at(show.stamp->time_since_epoch());
     return show;
   }

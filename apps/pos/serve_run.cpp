@@ -43,8 +43,12 @@ Inputs inputsOf(const fs::path& folder, const Voice& voice) {
 
 class RunShow final : public Session {
  public:
-  RunShow(const fs::path& folder, const Inputs& inputs, const Clock& clock)
-      : folder_(folder), clock_(clock), stage_(sceneryOf(inputs, serve::Mode::Run)), playhead_(Stamp{}) {
+  RunShow(const fs::path& folder, const Inputs& inputs, const std::optional<LockedVehicle>& vehicle,
+          const Clock& clock)
+      : folder_(folder),
+        clock_(clock),
+        stage_(sceneryOf(inputs, serve::Mode::Run, vehicle)),
+        playhead_(Stamp{}) {
     setMapFile(inputs);
     loadEstimators();
     loadEvents();
@@ -146,6 +150,7 @@ class RunShow final : public Session {
                      .first = stage_.first(),
                      .last = stage_.last(),
                      .truth = stage_.truthAt(stamp)};
+    show.locks = stage_.locksAt(stamp);
     for (std::size_t i = 0; i < recorded_.size(); ++i) show.estimators.push_back(stateAt(i, stamp));
     return show;
   }
@@ -185,8 +190,13 @@ void refuseInThisMode(const std::string& what) {
   throw serve::RequestError(409, "not_in_this_mode", Complaint{.what = what});
 }
 
-std::unique_ptr<Session> runSession(const std::string& folder, const Clock& clock, const Voice& voice) {
-  return std::make_unique<RunShow>(folder, inputsOf(folder, voice), clock);
+std::unique_ptr<Session> runSession(const std::string& folder, const std::optional<LockedVehicle>& vehicle,
+                                    const Clock& clock, const Voice& voice) {
+  return std::make_unique<RunShow>(folder, inputsOf(folder, voice), vehicle, clock);
+}
+
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock) {
+  return std::make_unique<RunShow>(folder, inputs, std::nullopt, clock);
 }
 
 std::unique_ptr<Session> mapSession(const std::string& map) {

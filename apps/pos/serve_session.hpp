@@ -45,10 +45,15 @@ class Session {
   std::optional<std::filesystem::path> map_file_;
 };
 
-std::unique_ptr<Session> runSession(const std::string& folder, const Clock& clock, const Voice& voice);
+/// `vehicle` shows the locks along its route.
+std::unique_ptr<Session> runSession(const std::string& folder, const std::optional<LockedVehicle>& vehicle,
+                                    const Clock& clock, const Voice& voice);
+/// The same where the inputs of the run are at hand.
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock);
 
 struct ReplayOptions {
-  bool play = false;  ///< begins by itself
+  bool play = false;                          ///< begins by itself
+  std::optional<LockedVehicle> vehicle = {};  ///< shows the locks along its route
   serve::ConnectionRules connections = {};
 };
 std::unique_ptr<Session> replaySession(Inputs inputs, const ReplayOptions& options, const Clock& clock);
@@ -58,6 +63,7 @@ struct LiveOptions {
   bool standard_input = false;  ///< JSON lines come there
   std::optional<int> tcp = {};  ///< or at this port
   std::string address = "127.0.0.1";
+  std::optional<LockedVehicle> vehicle = {};  ///< shows the locks along its route
   serve::ConnectionRules connections = {};
 };
 std::unique_ptr<Session> liveSession(Inputs inputs, const LiveOptions& options, const Clock& clock,

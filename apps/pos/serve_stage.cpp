@@ -1,5 +1,6 @@
 #include "serve_stage.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -27,7 +28,7 @@ void Reference::compare(serve::TrackRow& row) const {
   if (const auto pose = at(row.stamp)) serve::compare(row, *pose, tangent_.at(row.stamp));
 }
 
-Scenery sceneryOf(const Inputs& inputs, serve::Mode mode) {
+Scenery sceneryOf(const Inputs& inputs, serve::Mode mode, const std::optional<LockedVehicle>& vehicle) {
   Scenery scenery{.mode = mode, .name = inputs.config.name, .map_name = inputs.map->name};
   for (const io::EstimatorEntry& entry : inputs.config.estimators)
     scenery.estimators.push_back({entry.name, std::string(estimation::typeName(entry.config))});
@@ -38,6 +39,7 @@ Scenery sceneryOf(const Inputs& inputs, serve::Mode mode) {
     const auto ground = intervalGround(inputs.map, config);
     scenery.network = ground->scene.network;
     scenery.names.intervals = ground->scene.intervals;
+    if (vehicle) scenery.locks = std::make_shared<const LockedRoute>(*ground, *vehicle);
   }
   if (inputs.truth && !inputs.truth->poses.empty())
     scenery.reference.emplace(*inputs.truth, durationFromSeconds(inputs.config.evaluation.max_gap));
@@ -55,12 +57,15 @@ Stage::Stage(Scenery scenery)
 }
 
 void Stage::clear() {
+  watch_.reset();
+  if (scenery_.locks) watch_.emplace(scenery_.locks);
   const std::unique_lock lock(mutex_);
   states_.clear();
   for (const Scenery::Title& title : scenery_.estimators)
     states_.push_back({.name = title.name, .type = title.type});
   tested_.assign(states_.size(), {});
   for (std::size_t i = 0; i < states_.size(); ++i) tracks_[i].clear();
+  locks_.clear();
   events_.clear();
   ++resets_;
 }
@@ -89,13 +94,27 @@ void Stage::locate(serve::TrackRow& row, const Eigen::Vector3d& p_map) const {
   if (!held.empty()) row[serve::Column::Interval] = static_cast<float>(held.front());
 }
 
+/// By the lock rules where the vehicle's route is known, else by its place alone.
+std::vector<serve::Occupancy> Stage::lockStates(const Estimate& estimate,
+                                                const std::optional<interval::IntervalBelief>& belief) {
+  if (watch_) return watch_->take(estimate);
+  std::vector<serve::Occupancy> states;
+  for (std::size_t i = 0; belief && i < scenery_.names.intervals.size(); ++i)
+    states.push_back(serve::occupancy(*belief, i));
+  return states;
+}
+
 void Stage::estimate(std::size_t estimator, const Estimate& estimate,
                      const std::optional<interval::IntervalBelief>& belief) {
   serve::TrackRow row = serve::rowOf(estimate);
   if (scenery_.reference) scenery_.reference->compare(row);
   if (belief) serve::place(row, *belief);
   if (!belief) locate(row, estimate.T_map_body.translation);
+  std::vector<serve::Occupancy> locks;
+  if (estimator == 0) locks = lockStates(estimate, belief);
   const std::unique_lock lock(mutex_);
+  if (!locks.empty() && (locks_.empty() || locks_.back().states != locks))
+    locks_.push_back({estimate.stamp, std::move(locks)});
   const Tested tested = std::exchange(tested_[estimator], {});
   row[serve::Column::Gated] = static_cast<float>(tested.gated);
   if (tested.tested > 0) row[serve::Column::Nis] = static_cast<float>(tested.nis / tested.tested);
@@ -133,6 +152,29 @@ void Stage::setSpan(std::optional<Stamp> first, std::optional<Stamp> last) {
 std::vector<serve::EstimatorState> Stage::estimators() const {
   const std::shared_lock lock(mutex_);
   return states_;
+}
+
+std::vector<serve::Occupancy> Stage::locks() const {
+  const std::shared_lock lock(mutex_);
+  return locks_.empty() ? std::vector<serve::Occupancy>{} : locks_.back().states;
+}
+
+std::vector<serve::Occupancy> Stage::locksAt(Stamp stamp) const {
+  const std::shared_lock lock(mutex_);
+  const auto after = std::upper_bound(locks_.begin(), locks_.end(), stamp,
+                                      [](Stamp t, const LockChange& change) { return t < change.stamp; });
+  return after == locks_.begin() ? std::vector<serve::Occupancy>{} : std::prev(after)->states;
+}
+
+std::string Stage::lockChangesJson() const {
+  const std::shared_lock lock(mutex_);
+  Json list = Json::array();
+  for (const LockChange& change : locks_) {
+    Json states = Json::array();
+    for (const serve::Occupancy state : change.states) states.push_back(serve::name(state));
+    list.push_back({{"stamp_s", secondsSinceOrigin(change.stamp)}, {"states", std::move(states)}});
+  }
+  return list.dump();
 }
 
 std::optional<Pose3> Stage::truthAt(Stamp stamp) const {

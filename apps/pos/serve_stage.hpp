@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "inputs.hpp"
-#include "interval_watch.hpp"
+#include "lock_watch.hpp"
 #include "pos/eval/path_tangent.hpp"
 #include "pos/serve/event_log.hpp"
 #include "pos/serve/state.hpp"
@@ -47,9 +47,12 @@ struct Scenery {
   std::vector<AnchorId> anchors = {};
   std::optional<map::Network> network = {};  ///< where the map has roadways
   std::optional<Reference> reference = {};
-  bool intervals = false;  ///< each estimator's place is told
+  bool intervals = false;                         ///< each estimator's place is told
+  std::shared_ptr<const LockedRoute> locks = {};  ///< null where locks are judged by the place alone
 };
-Scenery sceneryOf(const Inputs& inputs, serve::Mode mode);
+/// With the locks along a route where a vehicle is given. Throws ConfigError for a route that cannot be
+/// locked.
+Scenery sceneryOf(const Inputs& inputs, serve::Mode mode, const std::optional<LockedVehicle>& vehicle = {});
 
 class Stage {
  public:
@@ -71,6 +74,11 @@ class Stage {
 
   // ---- for everybody
   std::vector<serve::EstimatorState> estimators() const;
+  /// State of every interval; none while nothing is known.
+  std::vector<serve::Occupancy> locks() const;
+  std::vector<serve::Occupancy> locksAt(Stamp stamp) const;
+  /// `[{"stamp_s", "states": [...]}]`, every change.
+  std::string lockChangesJson() const;
   std::optional<Pose3> truthAt(Stamp stamp) const;
   std::optional<Stamp> first() const;
   std::optional<Stamp> last() const;
@@ -83,6 +91,11 @@ class Stage {
   std::uint64_t resets() const;
 
  private:
+  /// From here on.
+  struct LockChange {
+    Stamp stamp = {};
+    std::vector<serve::Occupancy> states = {};
+  };
   /// Since the row before.
   struct Tested {
     double nis = 0.0;
@@ -91,12 +104,16 @@ class Stage {
   };
   void locate(serve::TrackRow& row, const Eigen::Vector3d& p_map) const;
   std::size_t trackOf(const std::string& name) const;
+  std::vector<serve::Occupancy> lockStates(const Estimate& estimate,
+                                           const std::optional<interval::IntervalBelief>& belief);
 
   const Scenery scenery_;
+  std::optional<LockWatch> watch_;  ///< of the thread that plays alone
   mutable std::shared_mutex mutex_;
   std::vector<serve::EstimatorState> states_;
   std::vector<Tested> tested_;
   std::vector<serve::Track> tracks_;  ///< of the estimators, then of the truth
+  std::vector<LockChange> locks_;
   serve::EventLog events_;
   std::optional<Stamp> first_;
   std::optional<Stamp> last_;

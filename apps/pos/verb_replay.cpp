@@ -7,6 +7,7 @@
 #include "pos/report/comparison.hpp"
 #include "progress.hpp"
 #include "replay.hpp"
+#include "viewer_page.hpp"
 
 namespace pos::app {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 struct Options {
   InputOptions inputs;
   OutputOptions outputs;
+  std::string interface;
   bool dry_run = false;
 };
 
@@ -50,6 +52,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
   }
   refuseUnknownMetrics(options.outputs.requirements, inputs.config);
   const auto folder = openRunFolder(options.outputs);
+  const auto viewer = folder ? viewerTemplate(options.interface) : std::nullopt;
   watchInterrupts();
   Replayed result = [&] {
     const bool knows_end = inputs.truth && inputs.truth->poses.size() > 1;
@@ -62,7 +65,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
   }();
   sayLeftOut(result.tally, voice);
   const eval::RunSummary summary = summaryOf(inputs, result);
-  if (folder) writeRun(*folder, inputs, summary);
+  if (folder) writeRun(*folder, inputs, summary, extrasOf(inputs, result), viewer);
   show(summary, options.outputs, folder ? &*folder : nullptr, voice);
   if (result.interrupted) {
     voice.warn("interrupted: the results cover the log up to where it was stopped");
@@ -81,6 +84,8 @@ void addReplay(const Verbs& verbs) {
   auto options = std::make_shared<Options>();
   addInputs(*verb, options->inputs);
   addOutputs(*verb, options->outputs);
+  verb->add_option("--interface", options->interface,
+                   "Folder of the built browser interface, for viewer.html in --out");
   verb->add_flag("--dry-run", options->dry_run,
                  "Check everything, print the resolved configuration, run nothing");
   addVoice(*verb, *verbs.voice);

@@ -10,6 +10,7 @@
 #include "pos/core/error.hpp"
 #include "pos/report/html.hpp"
 #include "replay.hpp"
+#include "viewer_page.hpp"
 
 namespace pos::app {
 namespace {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::string folder;
   std::string out;
+  std::string interface;
 };
 
 std::string resolvedConfigOf(const fs::path& folder) {
@@ -43,8 +45,13 @@ ExitCode runReport(const Options& options, const Voice& voice) {
   const fs::path origin = fs::path(options.folder) / "run.json";
   const Inputs inputs = loadInputs(io::runConfigFrom(io::parseYaml(yaml, origin), mrptShare()));
   const Replayed result = replayed(inputs, nullptr, [](std::uint64_t, Stamp) { return true; });
-  const fs::path out = options.out.empty() ? fs::path(options.folder) / "report.html" : fs::path(options.out);
-  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml));
+  const bool in_folder = options.out.empty();
+  const fs::path out = in_folder ? fs::path(options.folder) / "report.html" : fs::path(options.out);
+  const auto viewer = in_folder ? viewerTemplate(options.interface) : std::nullopt;
+  report::ReportExtras extras = extrasOf(inputs, result);
+  if (viewer) extras.viewer = kViewerFile;
+  writeFile(out, report::reportHtml(summaryOf(inputs, result), yaml, extras));
+  if (viewer) writeViewer(options.folder, inputs, *viewer);
   voice.say("report: " + out.string());
   return ExitCode::Ok;
 }
@@ -56,6 +63,8 @@ void addReport(const Verbs& verbs) {
   auto options = std::make_shared<Options>();
   verb->add_option("folder", options->folder, "Run folder written by `pos replay --out`")->required();
   verb->add_option("--out", options->out, "HTML file to write, instead of the folder's report.html");
+  verb->add_option("--interface", options->interface,
+                   "Folder of the built browser interface, for viewer.html beside report.html");
   addVoice(*verb, *verbs.voice);
   verb->callback([options, verbs] { *verbs.code = runReport(*options, *verbs.voice); });
 }

@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "pos/core/error.hpp"
-#include "pos/io/files.hpp"
 #include "pos/io/scenario_yaml.hpp"
 #include "progress.hpp"
 #include "serve_http.hpp"
@@ -27,8 +26,12 @@ struct Options {
   std::string token;
   std::string interface;
   bool play = false;
+  LockedVehicle vehicle;
   serve::ConnectionRules connections;
 
+  std::optional<LockedVehicle> locked() const {
+    return vehicle.route.empty() ? std::nullopt : std::optional(vehicle);
+  }
   bool isLive() const { return !live.empty() || live_tcp.has_value(); }
 };
 
@@ -48,6 +51,10 @@ void requireSense(const Options& options) {
     refuse("a live feed is recorded, and no folder for it is named", "--out", "give --out FOLDER");
   if (!options.isLive() && !options.out.empty())
     refuse("only a live feed is recorded", "--out", "pos replay --out keeps the results of a log");
+  if (!options.vehicle.route.empty() && options.run.empty() && !config)
+    refuse("a map alone has no vehicle to hold locks", "--route", "give --run FOLDER or --config FILE");
+  if (options.vehicle.reversed && options.vehicle.route.empty())
+    refuse("there is no route to be driven from its end", "--reversed", "give --route ID");
   if (!options.live.empty() && options.live != "-")
     refuse("live measurements come from standard input or TCP", "--live", "--live -, or --live-tcp PORT");
 }
@@ -64,17 +71,19 @@ Inputs liveInputs(const Options& options) {
 }
 
 std::unique_ptr<Session> sessionOf(const Options& options, const Clock& clock, const Voice& voice) {
-  if (!options.run.empty()) return runSession(options.run, clock, voice);
+  if (!options.run.empty()) return runSession(options.run, options.locked(), clock, voice);
   if (options.inputs.config.empty()) return mapSession(options.inputs.map);
   if (!options.isLive()) {
-    return replaySession(loadInputs(options.inputs),
-                         {.play = options.play, .connections = options.connections}, clock);
+    return replaySession(
+        loadInputs(options.inputs),
+        {.play = options.play, .vehicle = options.locked(), .connections = options.connections}, clock);
   }
   return liveSession(liveInputs(options),
                      {.folder = options.out,
                       .standard_input = !options.live.empty(),
                       .tcp = options.live_tcp,
                       .address = options.address,
+                      .vehicle = options.locked(),
                       .connections = options.connections},
                      clock, voice);
 }
@@ -102,21 +111,6 @@ serve::Guard guardOf(const Options& options, const Voice& voice) {
   voice.warn("everybody who reaches " + options.address +
              " and has the token can see and drive this; the connection is not encrypted");
   return {.loopback = false, .token = options.token.empty() ? newToken() : options.token};
-}
-
-/// Beside the installed program, or in the source tree it was built in.
-std::optional<fs::path> interfaceFolder(const Options& options) {
-  if (!options.interface.empty()) {
-    io::existingFile(fs::path(options.interface) / "index.html", Complaint{.key = "--interface"});
-    return options.interface;
-  }
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  for (const char* place : {"../share/pos/hmi", "../../../apps/hmi/dist"}) {
-    const fs::path folder = (program.parent_path() / place).lexically_normal();
-    if (!failed && fs::exists(folder / "index.html")) return folder;
-  }
-  return std::nullopt;
 }
 
 /// Ends when the user does, or when the show cannot go on.
@@ -147,7 +141,7 @@ ExitCode runServe(const Options& options, const Voice& voice) {
             .ticker = ticker,
             .map = map ? &*map : nullptr,
             .guard = guard,
-            .assets = assetsOf(interfaceFolder(options)),
+            .assets = assetsOf(interfaceFolder(options.interface)),
             .connections = options.connections};
   HttpServer server(site);
   const int port = server.bind(options.address, options.port);
@@ -179,6 +173,10 @@ void addServe(const Verbs& verbs) {
       ->check(CLI::Range(0, 65535));
   verb->add_option("--out", options->out, "Live: new folder for the recording and the results");
   verb->add_flag("--play", options->play, "Replay: begin at once");
+  verb->add_option(
+      "--route", options->vehicle.route,
+      "Route of the map that the vehicle drives: locks by the lock rules, not by its place alone");
+  verb->add_flag("--reversed", options->vehicle.reversed, "It drives the route from its end");
   verb->add_option("--port", options->port, "Port (0: any free one)")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -17,7 +17,7 @@ struct Comparison {
   double least_factor = 0.0;  ///< what yardstick / ours should reach; 0 = no target
 };
 
-/// The largest value of one benchmark over its repetitions; it has no yardstick.
+/// One benchmark without a yardstick: the median over its repetitions, of memory the largest.
 struct Figure {
   std::string what;
   std::string benchmark;

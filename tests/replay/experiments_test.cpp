@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "experiments/encoders_sins/loop", "experiments/encoders_sins/lockout",
                       "experiments/encoders_sins/vehicle_scale", "experiments/encoders_sins/dual_tag_start",
                       "experiments/encoders_sins/real_odometry", "experiments/seamless/circle_nlos",
-                      "experiments/seamless/circle_los", "uwb_imu/uwb_demo"),
+                      "experiments/seamless/circle_los", "experiments/shearer/clip", "uwb_imu/uwb_demo"),
     [](const auto& named) {
       std::string name = named.param;
       for (char& c : name) c = c == '/' ? '_' : c;

@@ -47,6 +47,13 @@ TEST_F(Intervals, IntoTheBranchItKeepsItsFigures) {
                 {replayed(bench_, {source("configs/experiments/intervals/be5_branch.yaml").string()})});
 }
 
+/// Of 50 minutes the first 400 s and 800 m: the yard, the portal, the incline and the first chambers.
+TEST_F(Intervals, AShiftBeginsWithFixesThatAreTakenAndErrorsThatAreAsTold) {
+  expectFigures("experiments/intervals/shift_mine",
+                {replayed(bench_, {source("configs/experiments/intervals/shift_mine.yaml").string(), "--set",
+                                   "scenario.duration_s=400"})});
+}
+
 TEST_F(Intervals, AMapWithoutRoadwaysIsRefused) {
   const RunResult run = expectExit({"replay", source("configs/simulation/circle.yaml").string(), "--set",
                                     "intervals.merge=1", "--map", source("maps/uwb_demo/map.yaml").string()},

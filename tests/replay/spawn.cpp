@@ -12,12 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only what the command may depend on; sanitizers keep their settings.
+/// Only what the command may depend on; sanitizers and coverage counters keep their settings. Counters
+/// without a place of their own would be written into the folder of the test.
 std::vector<std::string> bareEnvironment() {
   std::vector<std::string> environment{"PATH=/usr/bin:/bin", "LC_ALL=C.UTF-8"};
   for (const char* name : {"POS_MRPT_SHARE", "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS"}) {
     if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
   }
+  const char* counters = std::getenv("LLVM_PROFILE_FILE");
+  environment.push_back(std::string("LLVM_PROFILE_FILE=") + (counters != nullptr ? counters : "/dev/null"));
   return environment;
 }
 

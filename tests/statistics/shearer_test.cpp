@@ -98,6 +98,64 @@ TEST(ShearerTheory, TheWayBackCancelsInModes2And7Only) {
 
 namespace {
 
+constexpr double kPhiYaw = -15.6;   // arc minutes, of the alignment
+constexpr double kBetaYaw = 15.3;   // of the unit's mount as calibrated
+constexpr double kAlphaYaw = 13.8;  // of the scanner's mount
+
+/// What a first pass with the paper's mount errors comes to under a use of PICM.
+struct PicmPass {
+  Eigen::Vector3d error;
+  double eta;
+};
+PicmPass picmPass(PicmConfig::Use use, double alpha_yaw) {
+  ShearerSceneOptions options = shortFace(2);  // it stands only before an end operation
+  options.scanner_errors = true;
+  options.mount_error = testing::flu(-0.6, 0.0, alpha_yaw);
+  const ShearerScene scene = testing::shearerScene(options);
+  ShearerConfig config = testing::shearerConfig(testing::arcmin(-0.23, 0.24, kPhiYaw), 0.05);
+  config.face.length = kFace;
+  config.selection = {.mode = 2, .features = 1, .distance = 7.5};
+  config.picm = {.use = use, .body_mount = testing::flu(0.0, 0.0, -kBetaYaw)};
+  Shearer shearer(config, scene.map);
+  PicmPass pass{};
+  testing::runShearer(scene, 1, {&shearer}, [&](double t, const Pose3& truth) {
+    const auto estimate = shearer.estimateAt(stampFromSeconds(1000.0 + t));
+    if (estimate && t > kPass + 3.0 && t < kPass + 8.0)
+      pass.error = estimate->T_map_body.translation - truth.translation;
+  });
+  for (const NamedValue& value : shearer.diagnostics()) {
+    if (value.name == "picm_angle_rad") pass.eta = value.value;
+  }
+  return pass;
+}
+
+}  // namespace
+
+// Property 16 of spec C3. A prior of 0.05 arc minutes holds yaw where it is, as the formulas have it.
+TEST(ShearerPicm, DrivesEastToWhatYawAndMountOfTheUnitLeave) {
+  using Use = PicmConfig::Use;
+  const PicmPass off = picmPass(Use::Off, kAlphaYaw);
+  const PicmPass restart = picmPass(Use::Restart, kAlphaYaw);
+  const PicmPass onward = picmPass(Use::Continue, kAlphaYaw);
+  const double left = radians((kPhiYaw + kBetaYaw) / 60.0) * kFace;
+  std::printf("east: off %.4f, restart %.4f, continue %.4f, predicted %.4f; eta %.4f'\n", off.error.x(),
+              restart.error.x(), onward.error.x(), left, degrees(60.0 * restart.eta));
+  EXPECT_NEAR(restart.error.x(), left, 0.002);
+  EXPECT_NEAR(onward.error.x(), left, 0.003);
+  EXPECT_GT(std::abs(off.error.x()), 3.0 * std::abs(restart.error.x()));
+  EXPECT_NEAR(restart.eta, (off.error.x() - left) / kFace, 0.003 / kFace);
+  EXPECT_NEAR(restart.error.y(), off.error.y(), 0.001);
+  EXPECT_NEAR(restart.error.z(), off.error.z(), 0.001);
+}
+
+TEST(ShearerPicm, ASecondTimeItFindsNothing) {
+  const PicmPass first = picmPass(PicmConfig::Use::Restart, kAlphaYaw);
+  const PicmPass second = picmPass(PicmConfig::Use::Restart, kAlphaYaw - degrees(60.0 * first.eta));
+  EXPECT_LT(std::abs(second.eta), 0.02 * std::abs(first.eta));
+}
+
+namespace {
+
 /// Runs with errors drawn from what the filter is told: the sum of NEES over attitude, velocity and position.
 double neesOfRuns(int runs, Initialisation how) {
   double sum = 0.0;

@@ -1,5 +1,6 @@
 /** The page around the views: name, badge, language, theme, keys, warnings. */
 
+import { errorWords } from './i18n/server_words';
 import { chosenLanguage, translator, type Language } from './i18n/translate';
 import type { Context } from './model/context';
 import type { Session } from './model/session';
@@ -112,7 +113,7 @@ export class Page {
     const { silentFor, failure } = this.session;
     const words = [
       silentFor === null ? '' : t('serverGone', { seconds: silentFor }),
-      failure === null ? '' : t('failed', { why: failure }),
+      failure === null ? '' : t('failed', { why: errorWords(t, failure) }),
     ].filter(Boolean);
     setText(this.warnings, words.map((one) => `⚠ ${one}`).join('  '));
     this.warnings.hidden = words.length === 0;

@@ -1,5 +1,6 @@
 #include "pos/estimation/dead_reckoning.hpp"
 
+#include "parts.hpp"
 #include "pos/core/error.hpp"
 #include "pos/estimation/range_models.hpp"
 
@@ -9,9 +10,9 @@ namespace {
 Belief<Pose2> startOf(const StartConfig& start) {
   ensure(start.mode != StartMode::AtTruth,
          "start.mode at_truth must be spelt out before an estimator is made");
-  const double p = start.position_sigma * start.position_sigma;
-  const double yaw_sigma = start.mode == StartMode::Known ? start.yaw_sigma : kPi;
-  return {start.pose, Vector<3>(p, p, yaw_sigma * yaw_sigma).asDiagonal()};
+  StartConfig known = start;
+  if (start.mode != StartMode::Known) known.yaw_sigma = kPi;
+  return knownStart(known);
 }
 
 }  // namespace
@@ -34,13 +35,10 @@ void DeadReckoning::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 IngestReport DeadReckoning::ingest(const Measurement& measurement) {
-  if (defect(measurement))
-    return {.verdict = Verdict::Degenerate, .reason = "the reading itself is not valid"};
-  if (stamp_ && measurement.stamp < *stamp_)
-    return {.verdict = Verdict::TooOld, .reason = "older than the state"};
+  if (const auto refused = refusedUnseen(measurement, stamp_)) return *refused;
   const auto* odometry = std::get_if<OdometryIncrement>(&measurement.reading);
   if (odometry == nullptr) {
-    return {.verdict = Verdict::Unsupported, .reason = "dead_reckoning uses odometry increments only"};
+    return refusal(Verdict::Unsupported, "dead_reckoning uses odometry increments only");
   }
   if (!stamp_) reset(measurement.stamp, startOf(config_.start));
   const double dt = seconds(measurement.stamp - *stamp_);

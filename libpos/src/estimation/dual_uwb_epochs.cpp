@@ -43,9 +43,7 @@ void DualUwbEpochs::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 IngestReport DualUwbEpochs::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   return std::visit([&](const auto& reading) { return take(measurement.stamp, reading); },
                     measurement.reading);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Small parts that several estimators are made of. Private to estimation.
 
+#include <optional>
 #include <string_view>
 
 #include "pos/core/square.hpp"
@@ -11,6 +12,20 @@ namespace pos::estimation {
 /// The report on a measurement that changed nothing.
 inline IngestReport refusal(Verdict verdict, std::string_view reason) {
   return {.verdict = verdict, .reason = reason};
+}
+
+/// Refuses what no estimator looks at: a reading that is none, and one older than `last`, the newest stamp so
+/// far.
+inline std::optional<IngestReport> refusedUnseen(const Measurement& measurement,
+                                                 const std::optional<Stamp>& last) {
+  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
+  if (last && measurement.stamp < *last) return refusal(Verdict::TooOld, "older than the state");
+  return std::nullopt;
+}
+
+/// Whether a reading with this answer moves the estimator's time on: readings that it cannot use do not.
+inline bool movesTimeOn(const IngestReport& report) {
+  return report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate;
 }
 
 /// Covariance of three like, independent components of standard deviation `sigma`.

@@ -17,7 +17,6 @@ using filters::Modes;
 constexpr std::array<std::string_view, kSeamlessModes> kNames{"gnss", "uwb"};
 constexpr double kRecovery = 10.0;  // on the covariance, each time the state is doubted
 constexpr double kClipped = 12.0;   // squared sigmas of a range, for learning
-constexpr double kOfLate = 0.1;     // s that a mode's information is averaged over
 
 std::size_t other(std::size_t mode) {
   return 1 - mode;
@@ -33,15 +32,13 @@ SeamlessCore::SeamlessCore(const SeamlessConfig& config)
       fuzzy_(std::make_shared<const filters::FuzzyController>(config.fuzzy)),
       gnss_gate_(chiSquareQuantile(config.gnss.confidence, 3.0)),
       watch_{ModeWatch({config.imm.overdue, config.imm.rejected_in_a_row}),
-             ModeWatch({config.imm.overdue, config.imm.rejected_in_a_row})} {
-  information_.fill(Matrix<3, 3>::Zero());
-}
+             ModeWatch({config.imm.overdue, config.imm.rejected_in_a_row})} {}
 
 void SeamlessCore::start(Stamp stamp, const Belief<EskfState>& belief) {
   beliefs_ = {belief, belief};
   stamp_ = weighed_ = mixed_ = believed_ = stamp;
   mu_ = {config_->imm.first_gnss, 1.0 - config_->imm.first_gnss};
-  information_.fill(Matrix<3, 3>::Zero());
+  sigma_.fill(kUnsure);
 }
 
 bool SeamlessCore::anyUsable() const {
@@ -67,7 +64,7 @@ std::vector<ModeState> SeamlessCore::modeStates() const {
                       .usable = watch_[j].usable(),
                       .since = watch_[j].since(),
                       .last_applied = watch_[j].lastApplied(),
-                      .sigma = placeSigma(information_[j])});
+                      .sigma = sigma_[j]});
   }
   return states;
 }
@@ -242,27 +239,18 @@ double SeamlessCore::logLikelihoodOf(const Epoch& epoch) const {
   return filters::logLikelihood(form, evidence, evidenceLimit(evidence.dof));
 }
 
-/// What a mode's readings amount to, averaged: an anchor that is hidden for one round does not make the radio
-/// the worse sensor.
-void SeamlessCore::learnInformation(const Epoch& epoch, double since_last) {
-  const double keep = std::exp(-since_last / kOfLate);
-  information_[epoch.mode] = keep * information_[epoch.mode] + (1.0 - keep) * epoch.information;
-}
-
 std::string_view SeamlessCore::close() {
   if (!epoch_) return {};
   const Epoch epoch = *epoch_;
   epoch_.reset();
   std::string_view event;
   if (epoch.applied > 0) {
-    const std::optional<Stamp> last = watch_[epoch.mode].lastApplied();
     if (watch_[epoch.mode].applied(epoch.stamp)) {
-      information_[epoch.mode] = epoch.information;
       event = epoch.mode == kGnss ? "satellites join" : "the radio joins";
       log_likelihood_[epoch.mode].reset();
     }
     log_likelihood_[epoch.mode] = logLikelihoodOf(epoch);
-    learnInformation(epoch, last ? seconds(epoch.stamp - *last) : 0.0);
+    sigma_[epoch.mode] = placeSigma(epoch.information);
   } else if (watch_[epoch.mode].rejected(epoch.stamp)) {
     event = epoch.mode == kGnss ? "satellites are no longer believed" : "the radio is no longer believed";
     if (!anyUsable()) mu_ = Vector<2>::Unit(row(epoch.mode));

@@ -58,7 +58,8 @@ void ShearerFilter::start(const ins::Earth& earth, const ins::NavigationState& n
   last_ = {};
   unpropagated_ = unwatched_ = unaided_ = 0.0;
   straight_at_ = station();
-  swept_ = false;
+  rack_.reset();
+  rack_compared_ = swept_ = false;
   if (config_.end_fix.stroke_sigma > 0.0) (void)addStop(belief_, stopId(progress_.end() == 2 ? 1 : 2));
 }
 
@@ -96,6 +97,7 @@ FaceProgress::Event ShearerFilter::watchFace(double dt) {
   const FaceProgress::Event event = progress_.step(station(), speed, dt);
   if (event == FaceProgress::Event::Arrived) arrived();
   alongCut();
+  compareRack();
   return event;
 }
 
@@ -124,6 +126,20 @@ void ShearerFilter::alongCut() {
   const double lateral = share * fix.first_cut_lateral + line * config_.face.advance;
   const double sigma = std::sqrt(square(fix.straight_sigma) + line * square(fix.stroke_sigma));
   fixPlace(Eigen::Vector3d(lateral, 0.0, 0.0), {sigma, 0.0, 0.0});
+}
+
+/// The odometer's length against the filter's, where along the face the end of the first cut is surveyed:
+/// until it is there. Once, since all that an odometer reads is too long by the same share: a second time
+/// would tell nothing new.
+void ShearerFilter::compareRack() {
+  constexpr double kAfter = 100.0;  // m from the start
+  constexpr double kLag = 0.01;     // m, the odometer's last reading is older than the state
+  const bool due = rack_ && !rack_compared_ && config_.end_fix.first_cut_along_sigma > 0.0;
+  if (!due || progress_.arrivals() > 0 || *rack_ < kAfter) return;
+  rack_compared_ = true;
+  catchUp();
+  const double sigma = std::hypot(config_.odometer.scale_sigma * *rack_, kLag);
+  fixPlace(Eigen::Vector3d(0.0, *rack_, 0.0), {0.0, sigma, 0.0});
 }
 
 /// `place` and `sigma`: right of the line from end 1, along it, above the start; m. Sigma 0: not known.
@@ -177,6 +193,25 @@ int ShearerFilter::legs() const {
   for (int i = 0; i < belief_.mean.landmark_count; ++i)
     count += isLeg(belief_.mean.landmarks[static_cast<std::size_t>(i)]) ? 1 : 0;
   return count;
+}
+
+LegScene ShearerFilter::expectedLegs() const {
+  constexpr double kInView = 14.0;  // m along the face, as far as a scanner of 15 m sees the row
+  const ShearerState& x = belief_.mean;
+  const Eigen::Vector3d right(along_.y(), -along_.x(), 0.0);
+  LegScene scene;
+  const int first =
+      static_cast<int>(std::ceil((station() - kInView - lattice_.stationOf(0)) / config_.legs.spacing));
+  for (int number = first; lattice_.stationOf(number) <= station() + kInView; ++number) {
+    const double leg_station = lattice_.stationOf(number);
+    const auto known = x.indexOf(number);
+    const Eigen::Vector3d beside = x.nav.coordinates +
+                                   (leg_station - station()) * Eigen::Vector3d(along_.x(), along_.y(), 0.0) -
+                                   config_.legs.lateral * right;
+    const Eigen::Vector3d p = known ? expectedLeg(x, *known, arm_) : inScanner(x, beside, arm_);
+    scene.expected.push_back({number, p.head<2>(), progress_.mayHaveMoved(leg_station)});
+  }
+  return scene;
 }
 
 void ShearerFilter::dropOutOfSight() {

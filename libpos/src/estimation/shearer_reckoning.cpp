@@ -51,13 +51,10 @@ void ShearerReckoning::start() {
 }
 
 IngestReport ShearerReckoning::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const IngestReport report =
       std::visit([&](const auto& reading) { return take(measurement.stamp, reading); }, measurement.reading);
-  if (report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate)
-    last_stamp_ = measurement.stamp;
+  if (movesTimeOn(report)) last_stamp_ = measurement.stamp;
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "pos/estimation/sins_dr.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "parts.hpp"
 #include "pos/core/angle.hpp"
@@ -64,19 +65,14 @@ void SinsDr::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 Belief<Pose2> SinsDr::prior() const {
-  if (given_) return *given_;
-  const double p = square(config_.start.position_sigma);
-  return {config_.start.pose, Vector<3>(p, p, square(config_.start.yaw_sigma)).asDiagonal()};
+  return given_ ? *given_ : knownStart(config_.start);
 }
 
 IngestReport SinsDr::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const IngestReport report =
       std::visit([&](const auto& reading) { return take(measurement.stamp, reading); }, measurement.reading);
-  if (report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate)
-    last_stamp_ = measurement.stamp;
+  if (movesTimeOn(report)) last_stamp_ = measurement.stamp;
   return report;
 }
 
@@ -142,6 +138,7 @@ void SinsDr::start(Stamp stamp) {
   update_stamp_ = stamp;
   coordinates_at_update_ = x.nav.coordinates;
   since_update_ = {};
+  unpropagated_rolling_ = {};
   force_sum_.setZero();
   unpropagated_ = 0.0;
   rate_.forget();
@@ -169,22 +166,26 @@ IngestReport SinsDr::strapdown(Stamp stamp, const ins::ImuIncrement& raw) {
   return {.verdict = Verdict::Applied};
 }
 
-SinsDrInput SinsDr::input() const {
+/// Over the time not yet propagated. All that the wheels rolled in between belongs to it, whatever their rate
+/// is: way left out, or taken for more, would let a heading be seen that nothing tells.
+SinsDrInput SinsDr::input(const Rolling& rolling) const {
   SinsDrInput in;
-  if (unpropagated_ > 0.0) in.force_b = force_sum_ / unpropagated_;
-  if (since_update_.time > 0.0 && !slip_.isolated()) {
-    in.wheel_v_n = since_update_.moved_n / since_update_.time;
-    in.wheel_speed = since_update_.way / since_update_.time;
-  }
+  in.force_b = force_sum_ / unpropagated_;
+  in.wheel_v_n = rolling.moved_n / unpropagated_;
+  in.wheel_speed = rolling.way / unpropagated_;
   in.wheel_interval = wheel_interval_;
   return in;
 }
 
 void SinsDr::propagate() {
-  if (unpropagated_ <= 0.0) return;
-  estimation::propagate(belief_, config_, input(), unpropagated_);
-  force_sum_.setZero();
-  unpropagated_ = 0.0;
+  const Rolling rolling = std::exchange(unpropagated_rolling_, {});
+  if (unpropagated_ > 0.0) {
+    estimation::propagate(belief_, config_, input(rolling), unpropagated_);
+    force_sum_.setZero();
+    unpropagated_ = 0.0;
+  } else if (rolling.time > 0.0) {
+    propagateWheels(belief_, config_, rolling.moved_n, rolling.way);
+  }
 }
 
 /// The inertial unit is quiet and, where there are wheels, they have not turned for as long as it looked.

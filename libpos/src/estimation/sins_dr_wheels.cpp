@@ -18,6 +18,13 @@ constexpr double kForcedVelocitySigma = 0.1;  // m/s
 
 }  // namespace
 
+void SinsDr::Rolling::add(const Rolling& more) {
+  way += more.way;
+  turn += more.turn;
+  time += more.time;
+  moved_n += more.moved_n;
+}
+
 IngestReport SinsDr::take(Stamp stamp, const WheelTicks& ticks) {
   return roll(stamp, wheels_.take(stamp, ticks));
 }
@@ -54,11 +61,13 @@ IngestReport SinsDr::roll(Stamp stamp, const WheelIntake::Told& told) {
   }
   const double rolled_way = way.middle() / (1.0 + belief_.mean.scale);
   const SinsDrState moved = rolled(belief_.mean, q_at_wheels_, q_now, rolled_way, config_.mounts);
-  since_update_.moved_n +=
-      ins::metresBetween(moved.earth, belief_.mean.wheel_coordinates, moved.wheel_coordinates);
-  since_update_.way += rolled_way;
-  if (config_.odometer.track > 0.0) since_update_.turn += way.turn(config_.odometer.track);
-  since_update_.time += dt;
+  const Rolling now{
+      .way = rolled_way,
+      .turn = config_.odometer.track > 0.0 ? way.turn(config_.odometer.track) : 0.0,
+      .time = dt,
+      .moved_n = ins::metresBetween(moved.earth, belief_.mean.wheel_coordinates, moved.wheel_coordinates)};
+  since_update_.add(now);
+  if (!slip_.isolated()) unpropagated_rolling_.add(now);
   wheel_interval_ = dt;
   if (!slip_.isolated()) belief_.mean.wheel_coordinates = moved.wheel_coordinates;
   q_at_wheels_ = q_now;

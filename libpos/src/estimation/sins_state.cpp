@@ -31,6 +31,26 @@ struct SinsDrNoise {
   Matrix<3, 3> wheels = Matrix<3, 3>::Zero();
 };
 
+/// Each wheel's way has k_d^2 |way|; their mean half of it, along the way.
+Matrix<3, 3> wayNoise(const SinsDrConfig& config, const SinsDrState& x, double way) {
+  const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
+  const Matrix<3, 3> q = along * along.transpose();  // scaled afterwards: symmetric to the last bit
+  return 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(way) * q;
+}
+
+/// How the wheels' position follows attitude, scale and mounting over a way.
+void addWheels(ins::BlockTransition<21>& Phi, const SinsDrConfig& config, const SinsDrState& x,
+               const Eigen::Matrix3d& C, const Eigen::Vector3d& moved_n, double way) {
+  Phi.add(kWheelPosition, kPhi, Eigen::Matrix3d(-skew(moved_n)));
+  if (!x.earth.isFlat())
+    Phi.add(kWheelPosition, kWheelPosition, ins::metricRate(x.earth.at(x.wheel_coordinates), moved_n));
+  Phi.add(kWheelPosition, kScale, Eigen::Vector3d(-way * (C * x.rollingDirection())));
+  if (config.boresight_sigma > 0.0) {
+    Phi.add(kWheelPosition, kBoresightPitch, Eigen::Vector3d(way * C.col(2)));
+    Phi.add(kWheelPosition, kBoresightYaw, Eigen::Vector3d(way * C.col(1)));
+  }
+}
+
 SinsDrNoise noiseOver(const SinsDrConfig& config, const SinsDrState& x, const SinsDrInput& input, double dt) {
   SinsDrNoise q;
   q.diagonal.segment<3>(kPhi).setConstant(square(config.imu.gyro_density) * dt);
@@ -38,11 +58,7 @@ SinsDrNoise noiseOver(const SinsDrConfig& config, const SinsDrState& x, const Si
   q.diagonal.segment<3>(kGyroBias).setConstant(square(config.imu.gyro_bias_walk) * dt);
   q.diagonal.segment<3>(kAccelerometerBias).setConstant(square(config.imu.accelerometer_bias_walk) * dt);
   q.diagonal[kScale] = square(config.odometer_scale_walk) * dt;
-  // Each wheel's way has k_d^2 |way|; their mean half of it, along the way. The rest is white in velocity.
-  const Eigen::Vector3d along = x.nav.q_n_b * x.rollingDirection();
-  const double way_density = 0.5 * square(config.odometer.noise_per_sqrt_m) * std::abs(input.wheel_speed);
-  q.wheels = along * along.transpose();  // scaled afterwards: symmetric to the last bit
-  q.wheels *= dt * way_density;
+  q.wheels = wayNoise(config, x, input.wheel_speed * dt);  // the rest is white in velocity
   q.wheels.diagonal().array() += square(config.odometer_velocity_sigma) * input.wheel_interval * dt;
   return q;
 }
@@ -149,23 +165,24 @@ void propagate(Belief<SinsDrState>& belief, const SinsDrConfig& config, const Si
   const ins::ErrorModel model = ins::errorModel(x.earth, x.nav, input.force_b);
   ins::BlockTransition<21> Phi;
   ins::addInertial(Phi, x.earth, model, dt);
-  const Eigen::Matrix3d swung = -dt * skew(input.wheel_v_n);
-  Phi.add(kWheelPosition, kPhi, swung);
-  Phi.add(kWheelPosition, kGyroBias, Eigen::Matrix3d(-0.5 * dt * swung * model.C));
-  if (!x.earth.isFlat()) {
-    const Eigen::Matrix3d rate = ins::metricRate(x.earth.at(x.wheel_coordinates), input.wheel_v_n);
-    Phi.add(kWheelPosition, kWheelPosition, Eigen::Matrix3d(dt * rate));
-  }
-  const double way = dt * input.wheel_speed;
-  Phi.add(kWheelPosition, kScale, Eigen::Vector3d(-way * (model.C * x.rollingDirection())));
-  if (config.boresight_sigma > 0.0) {
-    Phi.add(kWheelPosition, kBoresightPitch, Eigen::Vector3d(way * model.C.col(2)));
-    Phi.add(kWheelPosition, kBoresightYaw, Eigen::Vector3d(way * model.C.col(1)));
-  }
+  const Eigen::Vector3d moved_n = dt * input.wheel_v_n;
+  addWheels(Phi, config, x, model.C, moved_n, dt * input.wheel_speed);
+  Phi.add(kWheelPosition, kGyroBias, Eigen::Matrix3d(0.5 * dt * skew(moved_n) * model.C));
   const SinsDrNoise half = noiseOver(config, x, input, 0.5 * dt);
   addNoise(belief.covariance, half);
   Phi.carry(belief.covariance);
   addNoise(belief.covariance, half);
+}
+
+void propagateWheels(Belief<SinsDrState>& belief, const SinsDrConfig& config, const Eigen::Vector3d& moved_n,
+                     double way) {
+  const SinsDrState& x = belief.mean;
+  ins::BlockTransition<21> Phi;
+  addWheels(Phi, config, x, x.nav.C_n_b(), moved_n, way);
+  const Matrix<3, 3> half = wayNoise(config, x, 0.5 * way);
+  belief.covariance.block<3, 3>(kWheelPosition, kWheelPosition) += half;
+  Phi.carry(belief.covariance);
+  belief.covariance.block<3, 3>(kWheelPosition, kWheelPosition) += half;
 }
 
 SinsDrState rolled(SinsDrState x, const Eigen::Quaterniond& q_before, const Eigen::Quaterniond& q_now,

@@ -9,13 +9,10 @@
 namespace pos::estimation {
 namespace {
 
-constexpr int kFewest = 3;                               // ranges of a plane fix
+constexpr int kFewest = 3;           // ranges of a plane fix
+constexpr double kSearch = 0.001;    // share of good fits that are searched for bad ranges, robust
+constexpr double kNoSearch = 1e-12;  // and otherwise: least squares of all ranges
 constexpr double kNoHeading = kPi / 1.7320508075688772;  // rad, sigma of a heading that may be any
-
-/// Robust: one good fit in a thousand is searched for bad ranges. Otherwise least squares of all ranges.
-uwb::ResidualTest testOf(const filters::RobustConfig& robust) {
-  return robust.form == filters::RobustConfig::Form::None ? uwb::ResidualTest::off() : uwb::ResidualTest();
-}
 
 DualUwbConfig linksOf(const UwbImuConfig& config) {
   DualUwbConfig links;
@@ -29,7 +26,7 @@ DualUwbConfig linksOf(const UwbImuConfig& config) {
 UwbOnlyCore::UwbOnlyCore(const UwbImuConfig& config, std::shared_ptr<const map::TunnelMap> map)
     : config_(config),
       links_(linksOf(config), *map),
-      test_(testOf(config.robust)),
+      test_(config.robust.form == filters::RobustConfig::Form::None ? kNoSearch : kSearch),
       prior_(knownStart(config.start)) {
   ensure(config.start.mode != StartMode::AtTruth,
          "start.mode at_truth must be spelt out before an estimator is made");
@@ -44,9 +41,7 @@ void UwbOnlyCore::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 IngestReport UwbOnlyCore::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const auto* range = std::get_if<BeaconRange>(&measurement.reading);
   if (range == nullptr) return refusal(Verdict::Unsupported, "uwb_only uses ranges and nothing else");
   return take(measurement.stamp, *range);

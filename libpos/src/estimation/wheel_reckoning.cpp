@@ -49,23 +49,16 @@ void WheelReckoning::reset(Stamp stamp, const Belief<Pose2>& prior) {
 }
 
 Belief<Pose2> WheelReckoning::prior() const {
-  Belief<Pose2> at{config_.start.pose,
-                   Vector<3>(square(config_.start.position_sigma), square(config_.start.position_sigma),
-                             square(config_.start.yaw_sigma))
-                       .asDiagonal()};
-  if (given_) at = *given_;
+  Belief<Pose2> at = given_ ? *given_ : knownStart(config_.start);
   at.mean = at.mean * blind_.moved;
   return at;
 }
 
 IngestReport WheelReckoning::ingest(const Measurement& measurement) {
-  if (defect(measurement)) return refusal(Verdict::Degenerate, "the reading itself is not valid");
-  if (last_stamp_ && measurement.stamp < *last_stamp_)
-    return refusal(Verdict::TooOld, "older than the state");
+  if (const auto refused = refusedUnseen(measurement, last_stamp_)) return *refused;
   const IngestReport report =
       std::visit([&](const auto& reading) { return take(measurement.stamp, reading); }, measurement.reading);
-  if (report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate)
-    last_stamp_ = measurement.stamp;
+  if (movesTimeOn(report)) last_stamp_ = measurement.stamp;
   return report;
 }
 

@@ -25,8 +25,7 @@ constexpr std::array kRunFiles{"run.json",   "events.csv",       "summary.json",
                               .suggestion = suggestion});
 }
 
-/// The files an earlier run left in the folder: the fixed names, and each x.tum with its x.csv and
-/// x.intervals.csv.
+/// The files an earlier run left in the folder: the fixed names, and each x.tum with its tables.
 std::vector<fs::path> earlierRun(const fs::path& folder) {
   std::vector<fs::path> files;
   files.reserve(kRunFiles.size());
@@ -35,7 +34,8 @@ std::vector<fs::path> earlierRun(const fs::path& folder) {
     if (entry.path().extension() != ".tum" || !entry.is_regular_file()) continue;
     files.push_back(entry.path());
     files.push_back(fs::path(entry.path()).replace_extension(".csv"));
-    files.push_back(fs::path(entry.path()).replace_extension(".intervals.csv"));
+    for (const char* table : {".intervals.csv", ".face_track.csv", ".face_bend.csv", ".face_creep.csv"})
+      files.push_back(fs::path(entry.path()).replace_extension(table));
   }
   return files;
 }

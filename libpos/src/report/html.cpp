@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face_section.hpp"
 #include "html_parts.hpp"
 #include "pos/report/comparison.hpp"
+#include "pos/report/face_files.hpp"
 #include "pos/report/figures.hpp"
 #include "pos/report/text.hpp"
 
@@ -39,6 +41,18 @@ std::string comparisonSection(const eval::RunSummary& run) {
       "inside the bounds in brackets. Gated is the share of usable readings that were rejected.";
   const std::string truth_sigma = truthSigmaNote(run);
   return html + alignmentNote(run) + (truth_sigma.empty() ? "" : " " + escaped(truth_sigma)) + "</p>\n";
+}
+
+/// Folded away, so that the wheel scrolls the report and the file is read only when it is wanted.
+std::string viewerSection(const std::string& viewer) {
+  if (viewer.empty()) return "";
+  const std::string file = escaped(viewer);
+  return "<h2 id=\"viewer\">The run to play</h2>\n<details><summary>Plan, tracks and charts over "
+         "time</summary>"
+         "<iframe class=\"viewer\" loading=\"lazy\" title=\"The run to play\" src=\"" +
+         file + "\"></iframe></details>\n<p class=\"note\"><a href=\"" + file +
+         "\">Open it in a window of its own.</a> It is the file " + file +
+         " beside this one; send both to send it along.</p>\n";
 }
 
 std::string reasonsText(const eval::Tally& tally) {
@@ -141,11 +155,16 @@ std::string diagnosticsSection(const eval::RunSummary& run) {
 
 }  // namespace
 
-std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config) {
+std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_config,
+                       const ReportExtras& extras) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
   html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
   html += switchingSection(run);
-  html += figureSection(figures(run));
+  html += faceSection(extras.faces) + viewerSection(extras.viewer);
+  std::vector<NamedFigure> all = figures(run);
+  for (const NamedFigure& figure : faceFigures(extras.faces)) all.push_back(figure);
+  all.insert(all.end(), extras.pictures.begin(), extras.pictures.end());
+  html += figureSection(all);
   html += verdictSection(run) + diagnosticsSection(run);
   return html + configSection(resolved_config) + pageEnd();
 }

@@ -30,6 +30,7 @@ figure svg{display:block;width:100%;height:auto;max-width:1120px}
 figcaption{color:var(--muted);font-size:.9rem;margin:.5rem .3rem 0;max-width:80ch}
 details{background:var(--paper);border:1px solid var(--line);border-radius:6px;padding:.6rem 1rem}
 summary{cursor:pointer;font-weight:600}pre{overflow-x:auto;font-size:.85rem;line-height:1.4}
+.viewer{display:block;width:100%;height:80vh;min-height:560px;border:0;margin:.6rem 0 0}
 @media print{body{background:#fff}figure,table{break-inside:avoid}}
 </style>
 )";

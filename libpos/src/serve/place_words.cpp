@@ -57,6 +57,10 @@ Occupancy occupancy(const IntervalBelief& belief, std::size_t interval) {
   return probability > 0.0 ? Occupancy::Doubtful : Occupancy::Free;
 }
 
+Occupancy lockState(const IntervalBelief& belief, std::size_t interval, const std::vector<Occupancy>& locks) {
+  return interval < locks.size() ? locks[interval] : occupancy(belief, interval);
+}
+
 std::string_view name(Occupancy occupancy) {
   switch (occupancy) {
     case Occupancy::Unknown:
@@ -71,7 +75,7 @@ std::string_view name(Occupancy occupancy) {
   return "";
 }
 
-std::string words(const IntervalBelief& belief, const Names& names) {
+std::string words(const IntervalBelief& belief, const Names& names, const std::vector<Occupancy>& locks) {
   if (belief.state == MatchState::Waiting) return "no roadway yet";
   if (belief.state == MatchState::Lost) return "off the roadways";
   std::string text =
@@ -79,7 +83,7 @@ std::string words(const IntervalBelief& belief, const Names& names) {
   if (belief.intervals.empty()) return text;
   const std::size_t best = belief.intervals.front().interval;
   return text + ", interval " + names.intervals[best].label() + ", lock " +
-         std::string(name(occupancy(belief, best)));
+         std::string(name(lockState(belief, best, locks)));
 }
 
 std::string intervalsJson(const Names& names) {

@@ -74,7 +74,8 @@ Json nextJson(const IntervalBelief& belief, const Names& names) {
           {"in_s", number(belief.next->seconds)}};
 }
 
-Json placeJson(const std::optional<IntervalBelief>& place, const Names& names) {
+Json placeJson(const std::optional<IntervalBelief>& place, const Names& names,
+               const std::vector<Occupancy>& locks) {
   if (!place) return nullptr;
   const bool known = knowsPlace(*place);
   const bool in_interval = known && !place->intervals.empty();
@@ -88,10 +89,10 @@ Json placeJson(const std::optional<IntervalBelief>& place, const Names& names) {
           {"against_chainage", known ? Json(place->against_chainage) : Json(nullptr)},
           {"interval", in_interval ? Json(names.intervals[best].label()) : Json(nullptr)},
           {"interval_id", in_interval ? Json(names.intervals[best].id) : Json(nullptr)},
-          {"lock", in_interval ? name(occupancy(*place, best)) : name(Occupancy::Unknown)},
+          {"lock", in_interval ? name(lockState(*place, best, locks)) : name(Occupancy::Unknown)},
           {"intervals", known ? listed(*place, names) : Json::array()},
           {"next", nextJson(*place, names)},
-          {"words", words(*place, names)}};
+          {"words", words(*place, names, locks)}};
 }
 
 Json modesJson(const Diagnostics& modes) {
@@ -107,7 +108,8 @@ Json activeMode(const Diagnostics& modes) {
   return best != modes.end() ? Json(best->name) : Json(nullptr);
 }
 
-Json estimatorJson(const EstimatorState& state, const std::optional<Stamp>& now, const Names& names) {
+Json estimatorJson(const EstimatorState& state, const std::optional<Stamp>& now, const Names& names,
+                   const std::vector<Occupancy>& locks) {
   Json json{{"name", state.name}, {"type", state.type}};
   const std::optional<Estimate>& e = state.estimate;
   const Matrix<3, 3> P = e ? e->planarCovariance() : Matrix<3, 3>::Zero();
@@ -123,7 +125,7 @@ Json estimatorJson(const EstimatorState& state, const std::optional<Stamp>& now,
     json["verdicts"][std::string(name(verdict))] = state.verdicts[static_cast<std::size_t>(verdict)];
   json["modes"] = modesJson(state.modes);
   json["mode"] = activeMode(state.modes);
-  json["place"] = placeJson(state.place, names);
+  json["place"] = placeJson(state.place, names, locks);
   return json;
 }
 
@@ -167,13 +169,14 @@ Json anchorsJson(const Connections& connections) {
 
 Json locksJson(const Show& show, const Names& names) {
   Json list = Json::array();
-  if (show.estimators.empty() || !show.estimators.front().place) return list;
-  const IntervalBelief& belief = *show.estimators.front().place;
+  const bool placed = !show.estimators.empty() && show.estimators.front().place;
+  if (!placed && show.locks.empty()) return list;
+  const IntervalBelief belief = placed ? *show.estimators.front().place : IntervalBelief{};
   for (std::size_t i = 0; i < names.intervals.size(); ++i) {
     list.push_back({{"id", names.intervals[i].id},
                     {"label", names.intervals[i].label()},
-                    {"state", name(occupancy(belief, i))},
-                    {"probability", number(probabilityOf(belief, i))}});
+                    {"state", name(lockState(belief, i, show.locks))},
+                    {"probability", placed ? number(probabilityOf(belief, i)) : Json(nullptr)}});
   }
   return list;
 }
@@ -199,8 +202,11 @@ std::string stateBody(const Show& show, const Names& names) {
             {"last_s", stampJson(show.last)},
             {"truth", show.truth ? poseJson(*show.truth) : Json(nullptr)},
             {"estimators", Json::array()}};
-  for (const EstimatorState& state : show.estimators)
-    json["estimators"].push_back(estimatorJson(state, show.stamp, names));
+  const std::vector<Occupancy> by_place;
+  for (const EstimatorState& state : show.estimators) {
+    const bool first = &state == &show.estimators.front();
+    json["estimators"].push_back(estimatorJson(state, show.stamp, names, first ? show.locks : by_place));
+  }
   json["sources"] = sourcesJson(show.connections);
   json["anchors"] = anchorsJson(show.connections);
   json["locks"] = locksJson(show, names);

@@ -77,6 +77,16 @@ TEST(ReportHtml, ListsEverySwitchAndDrawsTheProbabilities) {
   EXPECT_THAT(reportHtml(demo(), ""), Not(HasSubstr("Switches between models")));
 }
 
+TEST(ReportHtml, LeadsToTheRunThatLiesBesideItAndToNothingWhereThereIsNone) {
+  const std::string without_viewer = reportHtml(demo(), "a: 1");
+  EXPECT_THAT(without_viewer, Not(HasSubstr("<iframe")));
+  EXPECT_THAT(without_viewer, Not(HasSubstr("id=\"viewer\"")));
+  const std::string html = reportHtml(demo(), "a: 1", {.viewer = "viewer.html"});
+  EXPECT_THAT(html, HasSubstr("src=\"viewer.html\""));
+  EXPECT_THAT(html, HasSubstr("href=\"viewer.html\""));
+  EXPECT_LT(html.find("id=\"viewer\""), html.find("<h2>Figures"));
+}
+
 TEST(ReportHtml, EscapesNamesFromOutside) {
   eval::RunSummary run = demo();
   run.estimators.front().name = "<b>&\"x\"";

@@ -153,4 +153,19 @@ TEST(IntervalsJson, NamesTheRoadways) {
   EXPECT_EQ(list[0].at("length_m"), 10.0);
 }
 
+TEST(State, LocksAreThoseOfTheRulesWhereTheyAreTold) {
+  Show show{.mode = Mode::Live};
+  show.estimators = {someEstimate(), someEstimate()};
+  show.locks = {Occupancy::Held, Occupancy::Doubtful, Occupancy::Free};
+  const json body = bodyOf(show);
+  EXPECT_EQ(body.at("locks").at(0).at("state"), "held");
+  EXPECT_EQ(body.at("locks").at(1).at("state"), "doubtful");
+  EXPECT_EQ(body.at("locks").at(2).at("state"), "free");
+  EXPECT_NEAR(body.at("locks").at(1).at("probability").get<double>(), 0.97, 1e-12);
+  EXPECT_EQ(body.at("estimators").at(0).at("place").at("lock"), "doubtful");
+  EXPECT_EQ(body.at("estimators").at(1).at("place").at("lock"), "held") << "the rules judge the first one";
+  show.estimators.front().place.reset();
+  EXPECT_TRUE(bodyOf(show).at("locks").at(0).at("probability").is_null());
+}
+
 }  // namespace pos::serve

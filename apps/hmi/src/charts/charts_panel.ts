@@ -52,7 +52,8 @@ export function chartsPanel(context: Context, seek: (stamp: number) => void): Ch
     note.hidden = !empty;
     host.hidden = empty;
     if (empty) {
-      note.textContent = t('noChart', { why: t(shown.missing) });
+      const kept = shown.kind !== 'nis' || session.feed.info.mode !== 'run';
+      note.textContent = t('noChart', { why: t(kept ? shown.missing : 'noNisKept') });
       chart.clear();
     } else {
       chart.show(data);

@@ -1,5 +1,6 @@
 /** What the server says about the map: findings of the check, and what differs from the saved version. */
 
+import { errorWords, serverWords } from '../i18n/server_words';
 import type { Translate } from '../i18n/translate';
 import type { Change, Finding } from '../protocol/messages';
 import { h, replaceChildren, setText } from '../ui/dom';
@@ -16,7 +17,7 @@ export function findingsPanel(editing: Editing, t: Translate, go: (x: number, y:
 
   function show(): void {
     const { findings, refusal, remarks } = editing;
-    setText(count, refusal !== null ? `✕ ${t('noMap', { why: refusal })}` : countWords(findings));
+    setText(count, refusal !== null ? `✕ ${t('noMap', { why: errorWords(t, refusal) })}` : countWords(findings));
     count.className = refusal === null ? 'faint' : 'bad';
     const sorted = [...findings].sort((a, b) => kOrder[a.severity] - kOrder[b.severity]);
     const notes = remarks.map((remark) => h('li', { class: 'finding-note' }, h('span', {}, `ⓘ ${remark}`)));
@@ -31,7 +32,7 @@ export function findingsPanel(editing: Editing, t: Translate, go: (x: number, y:
 
   function item(finding: Finding): HTMLElement {
     const place = finding.place;
-    const words = `${kSigns[finding.severity]} ${finding.what}`;
+    const words = `${kSigns[finding.severity]} ${serverWords(t, 'check', finding.check, finding.what)}`;
     const head = place ? h('button', { type: 'button', onclick: () => go(place.x_m, place.y_m) }, words) : h('span', {}, words);
     return h('li', { class: `finding-${finding.severity}` }, head, h('span', { class: 'faint' }, finding.remedy));
   }
@@ -89,6 +90,6 @@ function savingWords(t: Translate, editing: Editing): string {
     case 'conflict':
       return `✕ ${t('savedConflict')}`;
     case 'refused':
-      return `✕ ${t('failed', { why })}`;
+      return `✕ ${t('failed', { why: errorWords(t, why) })}`;
   }
 }

@@ -15,7 +15,8 @@ export interface Saving {
   /** Version that this map began from. */
   version: string;
   state: 'clean' | 'changed' | 'saving' | 'saved' | 'conflict' | 'refused';
-  why: string;
+  /** What was refused; null where nothing was. */
+  why: unknown;
 }
 
 export class Editing {
@@ -27,7 +28,7 @@ export class Editing {
   coverage: Coverage | null = null;
   intervals: LockInterval[] = [];
   /** What the last check refused as no map at all; null when it is one. */
-  refusal: string | null = null;
+  refusal: unknown = null;
   saving: Saving;
 
   private history: History<MapDocument>;
@@ -41,7 +42,7 @@ export class Editing {
     version: string,
   ) {
     this.history = new History(map);
-    this.saving = { version, state: 'clean', why: '' };
+    this.saving = { version, state: 'clean', why: null };
     const fail = (error: unknown): void => this.refused(error);
     this.checks = new Latest((asked) => this.ask(asked), () => this.tell('answers'), fail);
     this.coverages = new Latest(
@@ -116,12 +117,12 @@ export class Editing {
     this.setSaving('saving');
     try {
       const version = await this.client.save(this.map, this.saving.version);
-      this.saving = { version, state: 'saved', why: '' };
+      this.saving = { version, state: 'saved', why: null };
       this.tell('saving');
       this.checks.put(this.map);
     } catch (error) {
       const conflict = error instanceof Refusal && error.failure.status === 412;
-      this.setSaving(conflict ? 'conflict' : 'refused', error instanceof Error ? error.message : String(error));
+      this.setSaving(conflict ? 'conflict' : 'refused', error);
     }
   }
 
@@ -129,7 +130,7 @@ export class Editing {
   async reload(): Promise<void> {
     const { map, version } = await this.client.map();
     this.history = new History(map);
-    this.saving = { version, state: 'clean', why: '' };
+    this.saving = { version, state: 'clean', why: null };
     this.changed();
     this.setSaving('clean');
   }
@@ -137,7 +138,7 @@ export class Editing {
   /** Keeps what was drawn and takes over the newest version's name, so that the next save replaces it; the diff shows against what. */
   async rebase(): Promise<void> {
     const { version } = await this.client.map();
-    this.saving = { version, state: 'changed', why: '' };
+    this.saving = { version, state: 'changed', why: null };
     this.tell('saving');
     this.checks.put(this.map);
   }
@@ -149,7 +150,7 @@ export class Editing {
     this.check();
   }
 
-  private setSaving(state: Saving['state'], why = ''): void {
+  private setSaving(state: Saving['state'], why: unknown = null): void {
     this.saving = { ...this.saving, state, why };
     this.tell('saving');
   }
@@ -165,7 +166,7 @@ export class Editing {
   }
 
   private refused(error: unknown): void {
-    this.refusal = error instanceof Error ? error.message : String(error);
+    this.refusal = error;
     this.tell('answers');
   }
 

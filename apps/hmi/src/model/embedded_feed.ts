@@ -1,15 +1,30 @@
 /** The feed of a run that lies in the page itself: what `/api/` would answer, put together by `pos report` (README.md). */
 
-import { list, oneOf, orNull, shape, text } from '../protocol/check';
+import { list, number, oneOf, orNull, shape, text } from '../protocol/check';
 import type { Command } from '../protocol/client';
-import { readEvent, readInfo, readIntervals, type EstimatorNow, type Info, type LockInterval, type RunEvent, type State } from '../protocol/messages';
+import {
+  readEvent,
+  readInfo,
+  readIntervals,
+  readLockState,
+  type EstimatorNow,
+  type Info,
+  type LockInterval,
+  type LockState,
+  type RunEvent,
+  type State,
+} from '../protocol/messages';
 import { trackRows, type TrackRows } from '../protocol/track_bytes';
 import { ellipseOf } from '../plan/ellipse';
 import type { Feed, FeedListener } from './feed';
+import { lowerBound } from './levels';
 import { readDocument, type MapDocument } from './map_document';
 import { rowAt, trackOf, valueAt, type Column, type Track } from './track';
 
 const kPeriodMs = 50;
+
+/** State of every interval from a moment on, in the order of `intervals`. */
+const readLockChange = shape({ stamp_s: number, states: list(readLockState) });
 
 const readEmbedded = shape({
   format: oneOf('pos.viewer/1'),
@@ -18,6 +33,7 @@ const readEmbedded = shape({
   intervals: (value: unknown, path: string) => readIntervals({ intervals: value ?? [] }, path).intervals,
   events: list(readEvent),
   tracks: list(shape({ name: text, columns: list(text), base64: text })),
+  locks: (value: unknown, path: string) => list(readLockChange)(value ?? [], path),
   background: orNull(text),
 });
 
@@ -33,6 +49,8 @@ class EmbeddedFeed implements Feed {
   private readonly rows: Map<string, TrackRows>;
   private readonly tracks: Map<string, Track>;
   private readonly told: RunEvent[];
+  private readonly lockChanges: { stamp_s: number; states: LockState[] }[];
+  private readonly lockStamps: number[];
   private stamp: number;
   private playing = false;
   private speed = 1;
@@ -48,6 +66,8 @@ class EmbeddedFeed implements Feed {
     this.map = run.map;
     this.intervals = run.intervals;
     this.told = run.events;
+    this.lockChanges = run.locks;
+    this.lockStamps = run.locks.map((change) => change.stamp_s);
     this.background = run.background;
     this.stamp = first;
   }
@@ -93,6 +113,7 @@ class EmbeddedFeed implements Feed {
   private state(): State {
     const truth = this.tracks.get('truth');
     const { first_s, last_s } = this.info;
+    const locks = this.locksNow();
     return {
       seq: ++this.seq,
       mode: 'run',
@@ -104,16 +125,21 @@ class EmbeddedFeed implements Feed {
       first_s,
       last_s,
       truth: truth ? poseAt(truth, rowAt(truth, this.stamp)) : null,
-      estimators: this.info.estimators.map(({ name, type }) => this.estimator(name, type)),
+      estimators: this.info.estimators.map(({ name, type }, index) => this.estimator(name, type, index === 0 ? locks : [])),
       sources: [],
       anchors: [],
-      locks: [],
+      locks: this.intervals.map(({ id, label }, index) => ({ id, label, state: locks[index] ?? 'unknown', probability: null })),
       recording: null,
       refused_lines: 0,
     };
   }
 
-  private estimator(name: string, type: string): EstimatorNow {
+  /** Those of the first estimator. */
+  private locksNow(): LockState[] {
+    return this.lockChanges[lowerBound(this.lockStamps, this.stamp + 1e-6) - 1]?.states ?? [];
+  }
+
+  private estimator(name: string, type: string, locks: LockState[]): EstimatorNow {
     const track = this.tracks.get(name);
     const row = track ? rowAt(track, this.stamp) : null;
     const at = (column: Column): number | null => (track && row !== null ? valueAt(track, column, row) : null);
@@ -134,11 +160,11 @@ class EmbeddedFeed implements Feed {
       verdicts: null,
       modes: [],
       mode: null,
-      place: this.place(at('roadway'), at('chainage_m'), at('interval')),
+      place: this.place(at('roadway'), at('chainage_m'), at('interval'), locks),
     };
   }
 
-  private place(roadway: number | null, chainage: number | null, interval: number | null): EstimatorNow['place'] {
+  private place(roadway: number | null, chainage: number | null, interval: number | null, locks: LockState[]): EstimatorNow['place'] {
     const roadways = this.map?.features.filter((feature) => feature.properties.object === 'roadway') ?? [];
     const id = roadway === null ? undefined : roadways[roadway]?.properties['id'];
     if (id === undefined || chainage === null) return null;
@@ -151,7 +177,7 @@ class EmbeddedFeed implements Feed {
       sigma_along_m: null,
       interval: named?.label ?? null,
       interval_id: named?.id ?? null,
-      lock: null,
+      lock: interval === null ? null : (locks[interval] ?? null),
       next: null,
     };
   }

@@ -18,7 +18,8 @@ export class Session {
   mine: Mine;
   /** Seconds without a sign of life; null while everything is well. */
   silentFor: number | null = null;
-  failure: string | null = null;
+  /** What was refused last, null while all is well. */
+  failure: unknown = null;
 
   private readonly listeners = new Map<Topic, Set<() => void>>();
   private lastSign = performance.now();
@@ -56,7 +57,7 @@ export class Session {
   }
 
   fail(error: unknown): void {
-    this.failure = error === null ? null : error instanceof Error ? error.message : String(error);
+    this.failure = error;
     this.tell('failure');
   }
 

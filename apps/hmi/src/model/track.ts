@@ -50,9 +50,9 @@ function joined(before: Float32Array, after: Float32Array | undefined, count: nu
   return all;
 }
 
-/** Row at or before a stamp; null before the first. */
+/** Row at or before a stamp; null before the first. Stamps since 1970 are doubles with steps of 0.2 us. */
 export function rowAt(track: Track, stamp: number): number | null {
-  const after = lowerBound(track.stamp, stamp + 1e-9);
+  const after = lowerBound(track.stamp, stamp + 1e-6);
   return after > 0 ? after - 1 : null;
 }
 

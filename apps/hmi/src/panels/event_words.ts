@@ -29,5 +29,13 @@ export function isTrouble(event: RunEvent): boolean {
 
 export function eventWords(t: Translate, event: RunEvent): string {
   const key = kKinds[event.kind];
-  return [key ? t(key) : event.kind, event.sensor, event.detail].filter(Boolean).join(' · ');
+  return [key ? t(key) : event.kind, event.sensor, detailWords(t, event)].filter(Boolean).join(' · ');
+}
+
+/** An interval by its name, a silence with a tenth of a second; the whole of it stands in events.csv. */
+function detailWords(t: Translate, event: RunEvent): string {
+  const silence = /^silent for ([0-9.]+) s$/.exec(event.detail);
+  if (silence) return t('silentFor', { seconds: Number(silence[1]).toFixed(1) });
+  if (event.kind === 'interval_entry' || event.kind === 'interval_exit') return event.detail.split(' ')[0] ?? '';
+  return event.detail;
 }

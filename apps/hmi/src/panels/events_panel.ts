@@ -23,7 +23,7 @@ export function eventsPanel(context: Context, seek: (stamp: number) => void): Pa
       const stamp = event.stamp_s;
       const moment = stamp === null ? null : h('button', { type: 'button', onclick: () => seek(stamp) }, clock(stamp - origin));
       const words = `${isTrouble(event) ? '⚠ ' : ''}${event.estimator ? `${event.estimator}: ` : ''}${eventWords(t, event)}`;
-      return h('li', { class: isTrouble(event) ? 'trouble' : '' }, moment, h('span', {}, words));
+      return h('li', { class: isTrouble(event) ? 'trouble' : '', title: event.detail }, moment, h('span', {}, words));
     });
     replaceChildren(list, ...(items.length > 0 ? items : [h('li', {}, t('noEvents'))]));
   }

@@ -27,7 +27,7 @@ export type Pose = Read<typeof readPose>;
 
 const lockStates = ['held', 'doubtful', 'free', 'unknown'] as const;
 export type LockState = (typeof lockStates)[number];
-const readLockState = oneOf<LockState>(...lockStates);
+export const readLockState = oneOf<LockState>(...lockStates);
 
 const readPlace = shape({
   state: oneOf('waiting', 'decided', 'branching', 'lost'),

@@ -81,7 +81,7 @@ export class FakeServer {
 
   private source(name: string): State['sources'][number] {
     const age = this.cut.get(name) ?? 0.02;
-    const state = age < 0.5 ? 'connected' : age < 2 ? 'stale' : 'lost';
+    const state = age < 0.8 ? 'connected' : age < 2 ? 'stale' : 'lost';
     return { name, kind: name, state, age_s: age, period_s: 0.02, count: 100, gated_ratio: 0.02, refused: 0, why: '' };
   }
 

@@ -64,7 +64,7 @@ export function sceneInfo(mode: SceneMode, editable = true): Info {
     estimators: mode === 'map' ? [] : [{ name: 'imm', type: 'seamless' }, { name: 'encoders', type: 'dead_reckoning' }],
     tracks: mode === 'map' ? [] : ['truth', 'imm', 'encoders'],
     columns: ['x_m', 'y_m', 'z_m', 'yaw_rad', 'sigma_x_m', 'sigma_y_m', 'corr_x_y', 'speed_m_per_s', 'error_m', 'nis', 'roadway', 'chainage_m', 'interval'],
-    stale_after_s: 0.5,
+    stale_after_s: 0.8,
     lost_after_s: 2,
   };
 }

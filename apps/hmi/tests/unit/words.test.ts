@@ -1,11 +1,15 @@
+import { readFileSync } from 'node:fs';
 import { expect, test } from 'vitest';
 import { greatest, latest } from '../../src/charts/bins';
+import { errorWords, serverWords } from '../../src/i18n/server_words';
 import { texts } from '../../src/i18n/texts';
 import { translator } from '../../src/i18n/translate';
 import { clock, placeWords } from '../../src/model/words';
+import { eventWords } from '../../src/panels/event_words';
 import { bearing } from '../../src/panels/position_panel';
 import { covers } from '../../src/plan/kept_picture';
 import { partsOf } from '../../src/plan/track_parts';
+import { Refusal } from '../../src/protocol/client';
 import { sceneState } from '../support/scene';
 
 test('both languages fill in the same names in every text', () => {
@@ -14,6 +18,31 @@ test('both languages fill in the same names in every text', () => {
     expect(`${key} ${names(chinese)}`).toBe(`${key} ${names(english)}`);
     expect(chinese.length, key).toBeGreaterThan(0);
   }
+});
+
+test('what the server says is told in the reader\'s language by its code, with its own words', () => {
+  const failure = { status: 412, code: 'conflict', what: 'the file has another version', place: '', key: '', got: '', expected: '', suggestion: '' };
+  expect(errorWords(translator('en'), new Refusal(failure))).toBe('the file has another version');
+  expect(errorWords(translator('zh'), new Refusal(failure))).toBe('其他人已保存了该地图（the file has another version）');
+  expect(errorWords(translator('zh'), new Refusal({ ...failure, code: 'brand_new' }))).toBe('the file has another version');
+  expect(serverWords(translator('zh'), 'check', 'few_anchors', 'anchor 3 is alone')).toBe('可见基站不足（anchor 3 is alone）');
+});
+
+test('every code of the server has Chinese words', () => {
+  const read = (path: string): string => readFileSync(new URL(`../../../../${path}`, import.meta.url), 'utf8');
+  const errors = /Codes: ([^.]*)\./s.exec(read('docs/formats/serve.md'))![1]!;
+  const codes = [...errors.matchAll(/`([a-z_]+)`/g)].map((match) => `error_${match[1]!}`);
+  const checks = /kNames = \{([^}]*)\}/s.exec(read('libpos/src/map/checks.cpp'))![1]!;
+  codes.push(...[...checks.matchAll(/"([a-z_]+)"/g)].map((match) => `check_${match[1]!}`));
+  expect(codes.length).toBeGreaterThan(35);
+  expect(codes.filter((code) => !(code in texts))).toEqual([]);
+});
+
+test('an event is told without the figures that belong into the table', () => {
+  const event = { n: 0, stamp_s: 1, estimator: '', kind: 'source_stale', sensor: 'uwb', detail: 'silent for 0.812345 s' };
+  expect(eventWords(translator('en'), event)).toBe('source is stale · uwb · silent for 0.8 s');
+  expect(eventWords(translator('zh'), event)).toBe('数据源陈旧 · uwb · 已静默 0.8 秒');
+  expect(eventWords(translator('en'), { ...event, kind: 'interval_entry', sensor: '', detail: 'j_3 k3>main at 17.2 s' })).toBe('enters interval · j_3');
 });
 
 test('a place is told in words in both languages', () => {

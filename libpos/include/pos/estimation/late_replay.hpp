@@ -82,10 +82,10 @@ class LateReplay final : public Estimator {
     Core before = std::exchange(core_, states_[from - 1].core);
     const Stamp start = states_[from - 1].stamp;
     const auto later = [](Stamp stamp, const Measurement& m) { return stamp < m.stamp; };
-    std::deque<Measurement> todo(std::upper_bound(log_.begin(), log_.end(), start, later), log_.end());
-    const auto place = std::upper_bound(todo.begin(), todo.end(), measurement.stamp, later);
-    const auto index = static_cast<std::size_t>(place - todo.begin());
-    for (std::size_t i = 0; i < index; ++i) (void)core_.ingest(todo[i]);
+    std::deque<Measurement> pending(std::upper_bound(log_.begin(), log_.end(), start, later), log_.end());
+    const auto place = std::upper_bound(pending.begin(), pending.end(), measurement.stamp, later);
+    const auto index = static_cast<std::size_t>(place - pending.begin());
+    for (std::size_t i = 0; i < index; ++i) (void)core_.ingest(pending[i]);
     const IngestReport report = core_.ingest(measurement);
     if (report.verdict == Verdict::Unsupported || report.verdict == Verdict::Degenerate) {
       core_ = std::move(before);
@@ -93,10 +93,10 @@ class LateReplay final : public Estimator {
     }
     states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(from), states_.end());
     const Stamp end = *newest_;
-    log_.erase(log_.end() - static_cast<std::ptrdiff_t>(todo.size() - index), log_.end());
+    log_.erase(log_.end() - static_cast<std::ptrdiff_t>(pending.size() - index), log_.end());
     log_.push_back(measurement);
     newest_ = measurement.stamp;
-    for (std::size_t i = index; i < todo.size(); ++i) (void)remembered(todo[i]);
+    for (std::size_t i = index; i < pending.size(); ++i) (void)remembered(pending[i]);
     newest_ = std::max(*newest_, end);
     ++replays_;
     return report;

@@ -76,7 +76,6 @@ class SeamlessCore {
   void mix();
   Matrix<2, 2> transition(double dt) const;
   double logLikelihoodOf(const Epoch& epoch) const;
-  void learnInformation(const Epoch& epoch, double since_last);
   void weigh();
   void forceFloor();
   IngestReport counted(IngestReport report);
@@ -92,7 +91,7 @@ class SeamlessCore {
   Vector<2> mu_ = {0.98, 0.02};
   std::array<ModeWatch, kSeamlessModes> watch_;
   std::array<std::optional<double>, kSeamlessModes> log_likelihood_ = {};
-  std::array<Matrix<3, 3>, kSeamlessModes> information_ = {};  // 1/m^2 an epoch, of late
+  std::array<double, kSeamlessModes> sigma_ = {};  // m per axis, of the latest readings
   std::optional<Epoch> epoch_;
   Stamp weighed_ = {};  // when the probabilities were last changed
   Stamp mixed_ = {};

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "pos/estimation/configs.hpp"
+#include "pos/estimation/creep_watch.hpp"
 #include "pos/estimation/estimator.hpp"
 #include "pos/estimation/inertial_intake.hpp"
+#include "pos/estimation/leg_scene.hpp"
 #include "pos/estimation/shearer_filter.hpp"
 #include "pos/lidar/legs.hpp"
 #include "pos/map/tunnel_map.hpp"
@@ -34,6 +36,10 @@ class Shearer final : public Estimator {
   std::optional<Estimate> estimateAt(Stamp stamp) const override;
   Diagnostics diagnostics() const override;
 
+  /// The legs of a whole sweep taken now: those expected, those found and which of these the filter uses.
+  /// Changes nothing. Empty before the start.
+  LegScene legScene(const Scan2D& sweep) const;
+
  private:
   /// What the first pass consisted of, kept for the restart of PICM.
   struct KeptLeg {
@@ -45,6 +51,11 @@ class Shearer final : public Estimator {
 
   IngestReport take(const Measurement& measurement, const ImuSample& sample);
   IngestReport take(const Measurement& measurement, const Scan2D& scan);
+  IngestReport take(const Measurement& measurement, const OdometryIncrement& odometry);
+  IngestReport take(const Measurement& measurement, const WheelSpeeds& speeds);
+  IngestReport roll(const WheelIntake::Told& told);
+  IngestReport takeRoadway(const Scan2D& sweep);
+  Eigen::Quaterniond faceAxes() const;
   template <class Other>
   IngestReport take(const Measurement&, const Other&) {
     return {.verdict = Verdict::Unsupported, .reason = "shearer has no use for this kind of reading"};
@@ -69,6 +80,9 @@ class Shearer final : public Estimator {
   std::vector<Kept> kept_;
   double eta_ = 0.0;
   bool was_degraded_ = false;
+  WheelIntake wheels_;
+  CreepWatch creep_;
+  std::optional<double> rack_;  // m, counted by the odometer; nothing where there is none
 };
 
 }  // namespace pos::estimation

@@ -7,6 +7,7 @@
 
 #include "pos/core/estimate.hpp"
 #include "pos/core/verdict.hpp"
+#include "pos/estimation/leg_scene.hpp"
 #include "pos/estimation/leg_selection.hpp"
 #include "pos/estimation/shearer_state.hpp"
 
@@ -29,6 +30,8 @@ class ShearerFilter {
              const Eigen::Matrix<double, 15, 15>& P);
   /// One inertial increment, biases and all. What happened at an end.
   FaceProgress::Event step(const ins::ImuIncrement& raw);
+  /// The odometer has counted `way` m more.
+  void rolled(double way) { rack_ = rack_.value_or(0.0) + way; }
   /// One leg, `age` seconds after the last increment, at `time` seconds of the filter's own clock.
   LegReport see(const Eigen::Vector3d& measured, const Eigen::Matrix3d& covariance, double age);
 
@@ -41,6 +44,11 @@ class ShearerFilter {
   const ShearerBelief& belief() const { return belief_; }
   const FaceProgress& progress() const { return progress_; }
   int mode() const { return mode_; }
+  /// The inertial unit at the start.
+  const ins::NavigationState& first() const { return first_; }
+  double alongSpeed() const { return along_.dot(belief_.mean.nav.v_n.head<2>()); }
+  /// Where the supports' legs in front of the scanner are expected, by the lattice that the filter follows.
+  LegScene expectedLegs() const;
   double station() const { return along_.dot(belief_.mean.nav.coordinates.head<2>() - origin_); }
   /// s without a leg that agreed.
   double unaided() const { return unaided_; }
@@ -56,6 +64,7 @@ class ShearerFilter {
   FaceProgress::Event watchFace(double dt);
   void arrived();
   void alongCut();
+  void compareRack();
   void fixPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& sigma);
   void closeLoop(int end);
   void dropOutOfSight();
@@ -79,8 +88,10 @@ class ShearerFilter {
   double unpropagated_ = 0.0;
   double unwatched_ = 0.0;
   double unaided_ = 0.0;
-  double straight_at_ = 0.0;  // m along the face: where the cut was last said to be on its line
-  bool swept_ = false;        // legs out of sight dropped since the last increment
+  double straight_at_ = 0.0;    // m along the face: where the cut was last said to be on its line
+  std::optional<double> rack_;  // m since the start; nothing where no odometer is heard
+  bool rack_compared_ = false;
+  bool swept_ = false;  // legs out of sight dropped since the last increment
 };
 
 }  // namespace pos::estimation

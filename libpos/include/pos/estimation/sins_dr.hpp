@@ -34,6 +34,8 @@ class SinsDr final : public Estimator {
     double turn = 0.0;                                  ///< rad, by the wheels
     double time = 0.0;                                  ///< s
     Eigen::Vector3d moved_n = Eigen::Vector3d::Zero();  ///< m, of the inertial unit
+
+    void add(const Rolling& more);
   };
 
   IngestReport take(Stamp stamp, const ImuSample& sample);
@@ -70,7 +72,7 @@ class SinsDr final : public Estimator {
   IngestReport act(Stamp stamp, SlipAction action, IngestReport report);
   void whileIsolated();
   void takeWheelVelocity();
-  SinsDrInput input() const;
+  SinsDrInput input(const Rolling& rolling) const;
   double ageOf(Stamp stamp) const { return seconds(stamp - *imu_.stamp()); }
 
   SinsDrConfig config_;
@@ -96,6 +98,7 @@ class SinsDr final : public Estimator {
   WheelIntake wheels_;
   Eigen::Quaterniond q_at_wheels_ = Eigen::Quaterniond::Identity();
   Rolling since_update_;
+  Rolling unpropagated_rolling_;  // what the covariance of the wheels' position does not hold yet
   double wheel_interval_ = 0.02;
   std::optional<Stamp> update_stamp_;
   Eigen::Vector3d coordinates_at_update_ = Eigen::Vector3d::Zero();

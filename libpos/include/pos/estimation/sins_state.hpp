@@ -54,6 +54,10 @@ Matrix<21, 21> sinsDrNoise(const SinsDrConfig& config, const SinsDrState& x, con
 /// The covariance carried over one interval (the strapdown has moved the mean already), block by block:
 /// P <- Phi (P + dt/2 q) Phi' + dt/2 q.
 void propagate(Belief<SinsDrState>& belief, const SinsDrConfig& config, const SinsDrInput& input, double dt);
+/// The wheels' part of it alone: what they rolled since the inertial unit was last heard. `moved_n` (m) is
+/// the way of the unit by the wheels, `way` (m) that of the axle's middle, scale taken off.
+void propagateWheels(Belief<SinsDrState>& belief, const SinsDrConfig& config, const Eigen::Vector3d& moved_n,
+                     double way);
 /// The same as full matrices, with every term of Phi = I + F dt + (F dt)^2 / 2: the oracle of tests.
 filters::Step<SinsDrState> sinsDrStep(const SinsDrConfig& config, const SinsDrState& x,
                                       const SinsDrInput& input, double dt);

@@ -12,6 +12,9 @@
 
 namespace pos::ins {
 
+/// m += p A' for three columns of `rows` entries each, that lie behind each other, and A by columns.
+void addTurned(double* m, const double* p, const double* A, int rows);
+
 /// N states, at most `Capacity` blocks and as many columns. Rows of blocks begin at multiples of three.
 template <int N, int Capacity = 24>
 class BlockTransition {
@@ -68,15 +71,8 @@ class BlockTransition {
 
   /// M.cols(row) += P.cols(column) A'.
   static void addRight(const Block& block, const Covariance& P, Covariance& M) {
-    const double* __restrict__ p = P.data() + static_cast<std::ptrdiff_t>(block.column) * N;
-    double* __restrict__ m = M.data() + static_cast<std::ptrdiff_t>(block.row) * N;
-    const Eigen::Matrix3d& A = block.value;
-    for (int k = 0; k < 3; ++k) {
-      const double a = A(k, 0);
-      const double b = A(k, 1);
-      const double c = A(k, 2);
-      for (int i = 0; i < N; ++i) m[k * N + i] += a * p[i] + b * p[N + i] + c * p[2 * N + i];
-    }
+    addTurned(M.data() + static_cast<std::ptrdiff_t>(block.row) * N,
+              P.data() + static_cast<std::ptrdiff_t>(block.column) * N, block.value.data(), N);
   }
 
   bool isActive(int third) const { return active_[static_cast<std::size_t>(third)]; }

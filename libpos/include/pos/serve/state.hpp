@@ -34,6 +34,11 @@ struct EstimatorState {
 /// Values named "probability_<model>" among the diagnostics, named by the model.
 Diagnostics modesOf(const Diagnostics& diagnostics);
 
+/// State of a lock interval. Doubtful: the vehicle may be in it, or its position is not believed; to be
+/// treated as occupied.
+enum class Occupancy { Unknown, Free, Doubtful, Held };
+std::string_view name(Occupancy occupancy);
+
 struct Recording {
   bool on = false;
   std::string file = {};  ///< without its folder
@@ -52,6 +57,8 @@ struct Show {
   std::optional<Stamp> last = {};
   std::optional<Pose3> truth = {};
   std::vector<EstimatorState> estimators = {};
+  std::vector<Occupancy> locks =
+      {};  ///< of every interval; empty: what the first estimator's place makes of them
   Connections connections = {};
   std::optional<Recording> recording = {};
   std::uint64_t refused_lines = 0;
@@ -64,12 +71,12 @@ struct Names {
 };
 
 /// What a lock would have to make of a vehicle that may be in it with this probability.
-enum class Occupancy { Unknown, Free, Doubtful, Held };
 Occupancy occupancy(const interval::IntervalBelief& belief, std::size_t interval);
-std::string_view name(Occupancy occupancy);
 
-/// "R12, 345.2 m, interval j_2, lock held".
-std::string words(const interval::IntervalBelief& belief, const Names& names);
+/// "R12, 345.2 m, interval j_2, lock held". `locks` holds the state of every interval; empty where only the
+/// belief tells.
+std::string words(const interval::IntervalBelief& belief, const Names& names,
+                  const std::vector<Occupancy>& locks = {});
 
 /// The state without `seq`: two are equal exactly when nothing changed.
 std::string stateBody(const Show& show, const Names& names);

@@ -16,8 +16,6 @@ class ResidualTest {
  public:
   /// `significance` is the share of good fits that fail, 0 < significance < 1.
   explicit ResidualTest(double significance = 0.001);
-  /// Never fails: all ranges count in full, however badly they agree.
-  static ResidualTest off();
 
   /// True when a sum of squared whitened residuals with `dof` redundant ranges is no surprise. Without
   /// redundancy nothing can be tested and the answer is yes.
