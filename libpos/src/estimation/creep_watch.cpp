@@ -20,7 +20,7 @@ std::optional<DwellCreep> CreepWatch::take(const Scan2D& sweep, const CreepLook&
   }
   const double away = std::abs(look.station - endAt(end_));
   if (away < kNear) {
-    keepSlower(left_ ? after_ : before_, sweep, look);
+    keepStanding(left_ ? after_ : before_, sweep, look);
     return std::nullopt;
   }
   if (before_ && after_) {
@@ -34,8 +34,8 @@ std::optional<DwellCreep> CreepWatch::take(const Scan2D& sweep, const CreepLook&
   return std::nullopt;
 }
 
-void CreepWatch::keepSlower(std::optional<Stand>& stand, const Scan2D& sweep, const CreepLook& look) const {
-  if (stand && std::abs(stand->look.speed) < std::abs(look.speed)) return;
+void CreepWatch::keepStanding(std::optional<Stand>& stand, const Scan2D& sweep, const CreepLook& look) const {
+  if (std::abs(look.speed) >= face_.standing_speed) return;
   stand = Stand{lidar::wallPoints(sweep, {.calibration = calibration_}), sweep.T_body_sensor, look};
 }
 

@@ -33,7 +33,6 @@ void Shearer::reset(Stamp stamp, const Belief<Pose2>& prior) {
   kept_.shrink_to_fit();
   wheels_.forget();
   creep_.forget();
-  rack_.reset();
   eta_ = 0.0;
   was_degraded_ = false;
 }

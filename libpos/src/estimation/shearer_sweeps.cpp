@@ -113,26 +113,24 @@ IngestReport Shearer::take(const Measurement& measurement, const WheelSpeeds& sp
 }
 
 IngestReport Shearer::roll(const WheelIntake::Told& told) {
-  if (config_.face.roadway_sensor.empty() && config_.end_fix.first_cut_along_sigma == 0.0)
+  if (config_.end_fix.first_cut_along_sigma == 0.0)
     return refusal(Verdict::Unsupported,
-                   "an odometer serves creep and a surveyed first cut, and neither is asked");
+                   "an odometer serves a surveyed first cut (end_fix), and there is none");
   if (!running_) return refusal(Verdict::NotInitialised, "nothing heard of the inertial unit yet");
   if (told.verdict != Verdict::Applied) return refusal(told.verdict, told.reason);
-  rack_ = rack_.value_or(0.0) + told.reading.way.middle();
   for (ShearerFilter& filter : filters_) filter.rolled(told.reading.way.middle());
   return {.verdict = Verdict::Applied};
 }
 
+/// The shearer stops at the same place of its conveyor before and after: nothing in a log tells otherwise.
 IngestReport Shearer::takeRoadway(const Scan2D& sweep) {
   if (!running_) return refusal(Verdict::NotInitialised, "nothing heard of the inertial unit yet");
-  if (!rack_) return refusal(Verdict::Unsupported, "creep needs an odometer: none was heard yet");
   const ShearerFilter& filter = best();
   const ins::NavigationState& nav = filter.belief().mean.nav;
   const CreepLook look{.T_map_body = {nav.coordinates - nav.q_n_b * config_.imu_place, nav.q_n_b},
                        .R_face_body = (faceAxes() * nav.q_n_b).toRotationMatrix(),
                        .station = filter.station(),
-                       .speed = filter.alongSpeed(),
-                       .rack = *rack_};
+                       .speed = filter.alongSpeed()};
   IngestReport report{.verdict = Verdict::Applied};
   if (const auto told = creep_.take(sweep, look)) {
     report.event = told->creep.usable ? "creep of the end operation measured"
@@ -141,12 +139,8 @@ IngestReport Shearer::takeRoadway(const Scan2D& sweep) {
   return report;
 }
 
-/// Map axes to face axes. Where a survey holds the end of the first cut, the filter's attitude is that of the
-/// map; elsewhere the shearer's axes at the start as computed are the face's (eq. 9, C_n^m(t0)).
+/// Map axes to face axes: the shearer's at the start as computed (eq. 9, C_n^m(t0)).
 Eigen::Quaterniond Shearer::faceAxes() const {
-  const double heading = config_.face.heading;
-  const Eigen::Quaterniond q_n_face(Eigen::AngleAxisd(heading - 0.5 * kPi, Eigen::Vector3d::UnitZ()));
-  if (config_.end_fix.first_cut_lateral_sigma > 0.0) return q_n_face.conjugate();
   const Eigen::Quaterniond q_m_face(Eigen::AngleAxisd(-0.5 * kPi, Eigen::Vector3d::UnitZ()));
   const Eigen::Quaterniond q_n_m =
       best().first().q_n_b * quaternionFromRotationVector(config_.picm.body_mount);

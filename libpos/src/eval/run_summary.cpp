@@ -80,6 +80,20 @@ std::vector<PathPoint> plainPath(const std::vector<Estimate>& estimates, Stamp s
   return path;
 }
 
+/// One curve per model, as the first estimate names them.
+std::vector<ModeCurve> modeCurves(const std::vector<Estimate>& estimates, Stamp start, std::size_t capacity) {
+  std::vector<ModeCurve> curves;
+  if (estimates.empty()) return curves;
+  for (std::size_t j = 0; j < estimates.front().modes.size(); ++j) {
+    std::vector<Point> points;
+    for (const Estimate& estimate : estimates) {
+      if (j < estimate.modes.size()) points.push_back({estimate.stamp, estimate.modes[j].probability, 0.0});
+    }
+    curves.push_back({std::string(estimates.front().modes[j].name), thinned(points, start, capacity, false)});
+  }
+  return curves;
+}
+
 Evaluation evaluation(const Matches& matches, const ErrorSeries& errors, const Alignment& alignment) {
   Evaluation e;
   e.association = matches.association;
@@ -135,6 +149,7 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
         intervalFigures(*record.intervals, *options.interval_scene, truth, options.association);
   }
   if (record.switching) summary.switching = record.switching->finish(options.boundaries);
+  summary.modes = modeCurves(record.estimates, start, options.plot_points);
   if (truth == nullptr || truth->poses.empty()) return summary;
   const Matches matches = associate(record.estimates, *truth, options.association);
   const Alignment shift = alignment(matches.pairs, options.alignment, *truth);

@@ -37,6 +37,14 @@ bool none(const States& modes) {
   return std::none_of(modes.begin(), modes.end(), [](const ModeState& m) { return m.usable; });
 }
 
+std::string inUse(const States& modes) {
+  std::string names;
+  for (const ModeState& mode : modes) {
+    if (mode.usable) names += (names.empty() ? "" : " + ") + std::string(mode.name);
+  }
+  return names;
+}
+
 std::optional<double> between(Stamp from, const std::optional<Stamp>& to) {
   return to ? std::optional(seconds(*to - from)) : std::nullopt;
 }
@@ -109,6 +117,8 @@ void SwitchingWatch::begin(const States& modes) {
     if (!started || modes[i].since < *started) started = modes[i].since;
   }
   next.started = *started;
+  next.from = inUse(before_);
+  next.to = inUse(modes);
   switches_.push_back(std::move(next));
   strict_ = better_ = {};
   open_ = true;

@@ -45,6 +45,7 @@ std::optional<NamedFigure> errorFigure(const eval::RunSummary& run);
 std::optional<NamedFigure> componentFigure(const eval::RunSummary& run, std::size_t estimator);
 std::optional<NamedFigure> cdfFigure(const eval::RunSummary& run);
 std::optional<NamedFigure> neesFigure(const eval::RunSummary& run);
+std::optional<NamedFigure> modesFigure(const eval::RunSummary& run);
 std::optional<NamedFigure> intervalFigure(const eval::RunSummary& run);
 std::optional<NamedFigure> sensorVerdictFigure(const eval::RunSummary& run);
 std::optional<NamedFigure> anchorVerdictFigure(const eval::RunSummary& run);

@@ -13,8 +13,8 @@ bool wantsLogarithm(double smallest, double largest) {
 }
 
 std::vector<NamedFigure> figures(const eval::RunSummary& run) {
-  std::vector<std::optional<NamedFigure>> all{planFigure(run), intervalFigure(run), errorFigure(run),
-                                              cdfFigure(run)};
+  std::vector<std::optional<NamedFigure>> all{planFigure(run), intervalFigure(run), modesFigure(run),
+                                              errorFigure(run), cdfFigure(run)};
   for (std::size_t i = 0; i < run.estimators.size(); ++i) all.push_back(componentFigure(run, i));
   for (const auto draw :
        {neesFigure, sensorVerdictFigure, anchorVerdictFigure, residualFigure, computeFigure}) {

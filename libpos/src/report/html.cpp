@@ -159,6 +159,7 @@ std::string reportHtml(const eval::RunSummary& run, const std::string& resolved_
                        const ReportExtras& extras) {
   std::string html = pageStart(run.run.empty() ? "Run" : run.run);
   html += header(run) + warningBox(warnings(run)) + comparisonSection(run) + intervalSection(run);
+  html += switchingSection(run);
   html += faceSection(extras.faces) + viewerSection(extras.viewer);
   std::vector<NamedFigure> all = figures(run);
   for (const NamedFigure& figure : faceFigures(extras.faces)) all.push_back(figure);

@@ -21,6 +21,8 @@ std::string fact(const std::string& label, const std::string& value);
 std::string warningBox(const std::vector<std::string>& warnings);
 /// A table with a star at the best of a column; bounds in brackets go below their figure.
 std::string tableHtml(const Comparison& table);
+/// Every switch between models, one row each; empty for a run without.
+std::string switchingSection(const eval::RunSummary& run);
 std::string figureSection(const std::vector<NamedFigure>& figures);
 /// Folded away; empty without a configuration.
 std::string configSection(const std::string& resolved_config);

@@ -210,6 +210,9 @@ Json switchingJson(const eval::SwitchingFigures& f, Stamp start) {
   Json list = Json::array();
   for (const eval::ModeSwitch& each : f.switches) {
     list.push_back({{"change", each.change},
+                    {"from", each.from},
+                    {"to", each.to},
+                    {"boundary_s", each.boundary ? number(seconds(*each.boundary - start)) : Json(nullptr)},
                     {"started_s", seconds(each.started - start)},
                     {"wait_s", number(each.wait())},
                     {"delay_s", number(each.delay())},

@@ -17,7 +17,7 @@ struct CreepLook {
   Eigen::Matrix3d R_face_body = Eigen::Matrix3d::Identity();  ///< x towards the coal, y from end 1 to end 2
   double station = 0.0;                                       ///< m along the face from end 1
   double speed = 0.0;                                         ///< m/s along it
-  double rack = 0.0;                                          ///< m, what the odometer has counted
+  double rack = 0.0;  ///< m on the conveyor; not by an odometer over ground, which sees the creep itself
 };
 
 /// The creep of one end operation.
@@ -32,8 +32,8 @@ class CreepWatch {
   explicit CreepWatch(const FaceConfig& face, const lidar::ScannerCalibration& calibration = {})
       : face_(face), calibration_(calibration) {}
 
-  /// The slowest sweep near an end before the shearer leaves it, against the slowest after it came back. The
-  /// creep comes once it has gone on, with the first sweep from more than 5 m off the end.
+  /// The last sweep from a stand near an end before the shearer leaves it, against the last after it came
+  /// back. The creep comes once it has gone on, with the first sweep from more than 5 m off the end.
   std::optional<DwellCreep> take(const Scan2D& sweep, const CreepLook& look);
   const std::vector<DwellCreep>& creeps() const { return creeps_; }
   void forget() { *this = CreepWatch(face_, calibration_); }
@@ -46,7 +46,7 @@ class CreepWatch {
     CreepLook look;
   };
 
-  void keepSlower(std::optional<Stand>& stand, const Scan2D& sweep, const CreepLook& look) const;
+  void keepStanding(std::optional<Stand>& stand, const Scan2D& sweep, const CreepLook& look) const;
   DwellCreep measured() const;
   double endAt(int end) const { return end == 2 ? face_.length : 0.0; }
 

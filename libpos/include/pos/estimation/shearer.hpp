@@ -82,7 +82,6 @@ class Shearer final : public Estimator {
   bool was_degraded_ = false;
   WheelIntake wheels_;
   CreepWatch creep_;
-  std::optional<double> rack_;  // m, counted by the odometer; nothing where there is none
 };
 
 }  // namespace pos::estimation

@@ -67,6 +67,12 @@ struct Evaluation {
   const Statistics* find(Component component) const;
 };
 
+/// How probable one of the models was that an estimator chooses between.
+struct ModeCurve {
+  std::string name;
+  PlotSeries probability;
+};
+
 struct EstimatorSummary {
   std::string name;
   std::string type;
@@ -81,6 +87,7 @@ struct EstimatorSummary {
   std::vector<PathPoint> path;
   std::optional<IntervalFigures> intervals = {};   ///< where intervals are evaluated
   std::optional<SwitchingFigures> switching = {};  ///< of an estimator that chooses between models
+  std::vector<ModeCurve> modes = {};               ///< likewise
 
   /// xy rmse, or nothing without truth or matches.
   std::optional<double> rmseXy() const;

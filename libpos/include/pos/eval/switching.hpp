@@ -29,6 +29,8 @@ struct SwitchingRules {
 /// One change of the usable set.
 struct ModeSwitch {
   std::string change = {};            ///< "+uwb", "-gnss"
+  std::string from = {};              ///< models in use before: "gnss"
+  std::string to = {};                ///< and after: "gnss + uwb"
   Stamp started = {};                 ///< T1
   std::optional<Stamp> settled = {};  ///< T2
   /// T2 where a joining model whose readings are the worse ones need not count, as long as the better one
