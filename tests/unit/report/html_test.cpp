@@ -65,12 +65,12 @@ TEST(ReportHtml, ListsEverySwitchAndDrawsTheProbabilities) {
                              {"uwb", {{0.0, 20.0, 60.0}, {0.01, 0.02, 0.98}, {}}}};
   run.estimators[0].switching = eval::SwitchingFigures{
       {{"+uwb", "gnss", "gnss + uwb", started, started + durationFromSeconds(0.0256), {}, boundary},
-       {"-gnss", "gnss + uwb", "uwb", boundary + durationFromSeconds(30.0), {}, {}, {}}}};
+       {"-gnss", "gnss + uwb", "uwb", boundary + durationFromSeconds(600.0), {}, {}, {}}}};
   const std::string html = reportHtml(run, "");
   EXPECT_THAT(html,
               HasSubstr("gnss \u2192 gnss + uwb</td><td>20.000</td><td>20.008</td><td>8.0</td><td>25.6</td>"
                         "<td>never</td>"));
-  EXPECT_THAT(html, HasSubstr("<td>50.000</td><td>\u2013</td><td>never</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>620.000</td><td>\u2013</td><td>never</td>"));
   EXPECT_THAT(html, HasSubstr("<figure id=\"modes\">"));
   EXPECT_THAT(html, HasSubstr(">+uwb 26 ms<"));
   EXPECT_THAT(html, HasSubstr(">-gnss never settled<"));
