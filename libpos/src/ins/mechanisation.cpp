@@ -50,7 +50,8 @@ NavigationState stepped(const Earth& earth, const NavigationState& state, const 
 
   NavigationState next;
   next.v_n = state.v_n + dv_force + dt * (gravity - coriolis(v_half));
-  // On the way metric and Earth rate change by half the way over the Earth's radius: 1e-8 at 10 m/s and 100 Hz.
+  // On the way metric and Earth rate change by half the way over the Earth's radius: 1e-8 at 10 m/s and 100
+  // Hz.
   next.coordinates = state.coordinates + (0.5 * dt * (state.v_n + next.v_n)).cwiseQuotient(here.metric);
   const Eigen::Vector3d omega_middle = here.omega_ie + here.omega_en(v_half);
   next.q_n_b =
