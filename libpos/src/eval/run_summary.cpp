@@ -80,16 +80,19 @@ std::vector<PathPoint> plainPath(const std::vector<Estimate>& estimates, Stamp s
   return path;
 }
 
-/// One curve per model, as the first estimate names them.
+/// One curve per model, as the first estimate with models names them: before the start there is none.
 std::vector<ModeCurve> modeCurves(const std::vector<Estimate>& estimates, Stamp start, std::size_t capacity) {
+  const auto named =
+      std::find_if(estimates.begin(), estimates.end(), [](const Estimate& e) { return !e.modes.empty(); });
   std::vector<ModeCurve> curves;
-  if (estimates.empty()) return curves;
-  for (std::size_t j = 0; j < estimates.front().modes.size(); ++j) {
+  if (named == estimates.end()) return curves;
+  for (std::size_t j = 0; j < named->modes.size(); ++j) {
     std::vector<Point> points;
-    for (const Estimate& estimate : estimates) {
-      if (j < estimate.modes.size()) points.push_back({estimate.stamp, estimate.modes[j].probability, 0.0});
+    for (auto estimate = named; estimate != estimates.end(); ++estimate) {
+      if (j < estimate->modes.size())
+        points.push_back({estimate->stamp, estimate->modes[j].probability, 0.0});
     }
-    curves.push_back({std::string(estimates.front().modes[j].name), thinned(points, start, capacity, false)});
+    curves.push_back({std::string(named->modes[j].name), thinned(points, start, capacity, false)});
   }
   return curves;
 }

@@ -16,14 +16,14 @@ std::vector<Pixel> curve(const Plot& plot, const eval::PlotSeries& series) {
 /// A line at every switch, and above it how long it took; a label that would run into the one before is left
 /// out, the table has them all.
 void drawSwitches(Svg& svg, const Plot& plot, const eval::SwitchingFigures& switching, Stamp start) {
-  constexpr double kLabelWidth = 96.0;
+  constexpr double kLabelWidth = 130.0;
   double free_from = plot.box.left;
   for (const eval::ModeSwitch& each : switching.switches) {
     const double x = plot.x(seconds(each.started - start));
     svg.line({x, plot.box.top}, {x, plot.box.bottom()}, "frame dash");
-    if (x < free_from) continue;
-    const auto delay = each.delay();
     const bool at_end = x + kLabelWidth > plot.box.right();
+    if ((at_end ? x - kLabelWidth : x) < free_from) continue;
+    const auto delay = each.delay();
     svg.text({x, plot.box.top - 5.0},
              each.change + (delay ? " " + fixed(1e3 * *delay, 0) + " ms" : " never settled"),
              at_end ? "end small muted" : "start small muted");
