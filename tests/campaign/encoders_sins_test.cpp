@@ -25,21 +25,14 @@ WheelScene sceneOf(const std::string& name) {
                              ".yaml");
 }
 
-/// What the specification asks for and is missed is printed; what was reached once must not get worse. Why it
-/// is missed stands in docs/experiments/encoders_sins.md.
-void expectReached(const char* what, double measured, double asked, double reached) {
-  std::printf("%s: %.4f, asked %.4f, %s\n", what, measured, asked, measured <= asked ? "met" : "MISSED");
-  EXPECT_LE(measured, reached) << what;
-}
-
 TEST(EncodersSins, Be1FinalHeadings) {
   const WheelRuns all = testing::wheelRuns(sceneOf("heading"), kRuns);
   testing::printFigures("B-E1", all);
   const double fused = testing::rms(all.at("ekf_heading"), endYawDeg);
   EXPECT_LE(fused, testing::rms(all.at("encoders"), endYawDeg));
   EXPECT_LE(fused, testing::rms(all.at("encoders_attitude"), endYawDeg));
-  expectReached("final heading, rms (deg)", fused, 0.9114, 0.92);
-  expectReached("largest error, p95 (m)", quantile(all.at("ekf_heading"), 0.95, maxXy), 0.10, 0.115);
+  EXPECT_LE(fused, 0.9114) << "Table 1 of the paper";
+  EXPECT_LE(quantile(all.at("ekf_heading"), 0.95, maxXy), 0.10);
   // The encoders and the inertial heading err as the paper's do.
   EXPECT_NEAR(testing::rms(all.at("encoders"), endYawDeg), 2.6533, 0.35);
   EXPECT_NEAR(testing::rms(all.at("encoders_attitude"), endYawDeg), 1.0547, 0.1);
@@ -58,8 +51,7 @@ TEST(EncodersSins, Be2LoopWithAndWithoutZaru) {
 TEST(EncodersSins, Be3Slip) {
   const WheelRuns all = testing::wheelRuns(sceneOf("slip"), kRuns);
   testing::printFigures("B-E3", all);
-  // Asked: at least 1 m at the end in the median. It is a property of the run, and 0.94 m.
-  EXPECT_GE(quantile(all.at("believed"), 0.5, endXy), 0.9);
+  EXPECT_GE(quantile(all.at("believed"), 0.5, endXy), 1.0);
   EXPECT_LE(quantile(all.at("isolated"), 0.9, maxXy), 0.35);
   EXPECT_LE(quantile(all.at("isolated"), 0.9, endXy), 0.15);
   EXPECT_LE(quantile(all.at("isolated_standstill"), 0.9, maxXy), 0.10);
@@ -101,9 +93,7 @@ TEST(EncodersSins, Be4NobodyIsLockedOut) {
 }
 
 /// A heading wrong by half a degree, as two tags at a chamber give it.
-/// Without the map. With it the error stays within 1 %: `sins_dr_road` of the configuration, judged by
-/// test_replay.
-TEST(EncodersSins, Be6HeadingOfHalfADegreeAndTheGyrosBiasGrowAcross) {
+TEST(EncodersSins, Be6HeadingOfHalfADegreeKeepsTheErrorAcrossWithinOnePercent) {
   WheelScene scene = sceneOf("dual_tag_start");
   scene.from = 10.0;
   WheelRuns all = testing::wheelRuns(scene, kRuns, [](EstimatorConfig& config, std::uint64_t seed) {
@@ -111,7 +101,7 @@ TEST(EncodersSins, Be6HeadingOfHalfADegreeAndTheGyrosBiasGrowAcross) {
     if (auto* sins = std::get_if<SinsDrConfig>(&config)) sins->start.pose.yaw += off;
     if (auto* wheels = std::get_if<DeadReckoningConfig>(&config)) wheels->start.pose.yaw += off;
   });
-  all.erase("sins_dr_road");  // no roadway here
+  all.erase("sins_dr_road");  // no roadway here: test_replay judges it
   testing::printFigures("B-E6", all);
   for (const auto& [name, runs] : all) {
     const double worst =
@@ -119,11 +109,9 @@ TEST(EncodersSins, Be6HeadingOfHalfADegreeAndTheGyrosBiasGrowAcross) {
     std::printf("%s: across the way at the end, p95 %.2f %% of %.0f m\n", name.c_str(), 100.0 * worst,
                 runs.front().way);
   }
-  // Half a degree is 0.87 %; five seconds of standing still leave 0.0045 deg/s of bias, another 0.6 % in 150
-  // s.
-  const auto share = [](const WheelRun& r) { return std::abs(r.end_across) / r.way; };
-  EXPECT_NEAR(quantile(all.at("sins_dr"), 0.5, share), 0.0087, 0.003);
-  EXPECT_LE(quantile(all.at("sins_dr"), 0.95, share), 0.0087 + 2.0 * 0.006);
+  EXPECT_LE(
+      quantile(all.at("sins_dr"), 0.95, [](const WheelRun& r) { return std::abs(r.end_across) / r.way; }),
+      0.01);
 }
 
 TEST(EncodersSins, VehicleScale) {
