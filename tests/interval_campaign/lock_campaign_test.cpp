@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "pos/core/error.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "support/lock_mine.hpp"
 #include "support/traffic_figures.hpp"
@@ -29,10 +28,7 @@ void campaign(const testing::LockMine& mine, const traffic::TrafficOptions& opti
 }  // namespace
 
 TEST(LockCampaign, AHundredThousandRequestsByTwentyVehiclesInTheShiftMine) {
-  const auto none = [](const std::filesystem::path& file) -> map::OccupancyGrid {
-    throw ConfigError(Complaint{.what = "the campaign reads no grids", .got = file.string()});
-  };
-  const auto map = io::loadMap(std::filesystem::path(POS_SOURCE_DIR) / "maps/shift_mine/map.yaml", {}, none);
+  const auto map = io::readMapFile(std::filesystem::path(POS_SOURCE_DIR) / "maps/shift_mine/map.yaml").map;
   campaign(testing::LockMine(std::make_shared<const map::TunnelMap>(map)),
            {.seed = 11, .vehicles = 20, .requests = 100000});
 }

@@ -53,9 +53,8 @@ struct WheelScene {
 inline WheelScene wheelScene(const std::filesystem::path& file) {
   WheelScene scene{.config = io::loadRunConfig(file, {}, {}), .scenario = {}, .map = nullptr};
   scene.scenario = io::loadScenario(scene.config.scenario->file, {}, {});
-  const auto no_grid = [](const std::filesystem::path&) { return map::OccupancyGrid{}; };
   scene.map = scene.scenario.map
-                  ? std::make_shared<const map::TunnelMap>(io::loadMap(*scene.scenario.map, {}, no_grid))
+                  ? std::make_shared<const map::TunnelMap>(io::readMapFile(*scene.scenario.map).map)
                   : std::make_shared<const map::TunnelMap>();
   return scene;
 }
