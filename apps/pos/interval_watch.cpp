@@ -101,7 +101,7 @@ std::optional<Measurement> IntervalWatch::checked(const Measurement& measurement
                                                   const std::optional<Estimate>& here) {
   const auto& fix = std::get<PassageFix>(measurement.reading);
   if (here) tracker_.road().take(*here);
-  interval::Passage passage = passages_.judged({measurement.stamp, fix.place}, tracker_.road());
+  interval::Passage passage = passages_.judged({measurement.stamp, fix.place, fix.p_body}, tracker_.road());
   if (passage.verdict != interval::PassageVerdict::Accepted) {
     ++record_.passages_refused;
     lines_.push_back({measurement.stamp, estimator_, "passage_refused", measurement.sensor,

@@ -72,6 +72,7 @@ struct FindDefect {
   }
   Defect operator()(const PassageFix& r) const {
     if (!r.p_map.allFinite()) return "passage position is not a finite number";
+    if (!r.p_body.allFinite()) return "passage mount is not a finite number";
     if (!isCovariance(r.covariance)) return "passage covariance is not positive semi-definite";
     if (r.yaw && !finite(*r.yaw)) return "passage heading is not a finite number";
     return {};

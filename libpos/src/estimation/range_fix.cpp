@@ -27,10 +27,9 @@ template <int M>
 filters::Innovation<RangeState, M> innovationOf(const RangeState& x, const RangeLayout& layout,
                                                 const FixReading& fix) {
   if constexpr (M == 2) {
-    return positionInnovation(x, layout, fix.p_map, fix.age, fix.odometry_velocity);
+    return positionInnovation(x, layout, fix.seen, fix.age, fix.odometry_velocity);
   } else {
-    const Pose2 T_map_body{fix.p_map.x(), fix.p_map.y(), *fix.yaw};
-    return poseInnovation(x, layout, T_map_body, fix.age, fix.odometry_velocity);
+    return poseInnovation(x, layout, fix.seen, *fix.yaw, fix.age, fix.odometry_velocity);
   }
 }
 

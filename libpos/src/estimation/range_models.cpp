@@ -187,26 +187,28 @@ RangePrediction predictedRange(const State& x, const RangeLayout& layout,
 }
 
 filters::Innovation<State, 2> positionInnovation(const State& x, const RangeLayout& layout,
-                                                 const Eigen::Vector2d& p_map, double age,
+                                                 const SeenPoint& seen, double age,
                                                  const BodyVelocity& odometry_velocity) {
   const Carried body = carried(x, layout, odometry_velocity, age);
-  filters::Innovation<State, 2> innovation{p_map - body.position,
+  const Eigen::Vector2d lever_map = rotation2(body.yaw) * seen.p_body;
+  const Eigen::Vector2d dlever_dyaw = derivativeOfTurned(lever_map);
+  filters::Innovation<State, 2> innovation{seen.p_map - body.position - lever_map,
                                            TangentRows<State, 2>::Zero(2, x.values.size())};
   innovation.H.leftCols<2>().setIdentity();
-  innovation.H.col(2) = body.dposition_dyaw;
+  innovation.H.col(2) = body.dposition_dyaw + dlever_dyaw;
   if (const auto row = layout.row(Term::VelocityX))
     innovation.H.middleCols<2>(*row) = age * Eigen::Matrix2d::Identity();
+  if (const auto row = layout.row(Term::YawRate)) innovation.H.col(*row) = age * dlever_dyaw;
   return innovation;
 }
 
-filters::Innovation<State, 3> poseInnovation(const State& x, const RangeLayout& layout,
-                                             const Pose2& T_map_body, double age,
-                                             const BodyVelocity& odometry_velocity) {
-  const auto position = positionInnovation(x, layout, T_map_body.translation(), age, odometry_velocity);
-  const double yaw = carried(x, layout, odometry_velocity, age).yaw;
+filters::Innovation<State, 3> poseInnovation(const State& x, const RangeLayout& layout, const SeenPoint& seen,
+                                             double yaw, double age, const BodyVelocity& odometry_velocity) {
+  const auto position = positionInnovation(x, layout, seen, age, odometry_velocity);
+  const double expected = carried(x, layout, odometry_velocity, age).yaw;
   filters::Innovation<State, 3> innovation{Vector<3>::Zero(),
                                            TangentRows<State, 3>::Zero(3, x.values.size())};
-  innovation.nu << position.nu, wrapAngle(T_map_body.yaw - yaw);
+  innovation.nu << position.nu, wrapAngle(yaw - expected);
   innovation.H.topRows<2>() = position.H;
   innovation.H(2, 2) = 1.0;
   if (const auto row = layout.row(Term::YawRate)) innovation.H(2, *row) = age;

@@ -219,8 +219,10 @@ IngestReport RangeOdometry::take(Stamp stamp, const PassageFix& fix) {
   if (start_) return refusal(Verdict::NotInitialised, "waiting for ranges that fix the first position");
   if (!driven()) carryTo(stamp);
   const double age = ageOf(stamp);
-  FixReading reading{
-      .p_map = fix.p_map.head<2>(), .yaw = fix.yaw, .age = age, .odometry_velocity = coasting(age)};
+  FixReading reading{.seen = {fix.p_map.head<2>(), fix.p_body.head<2>()},
+                     .yaw = fix.yaw,
+                     .age = age,
+                     .odometry_velocity = coasting(age)};
   reading.covariance.topLeftCorner<2, 2>() = fix.covariance.topLeftCorner<2, 2>();
   reading.covariance.diagonal().head<2>().array() += unknownMotion(age);
   if (fix.yaw) reading.covariance(2, 2) = square(*fix.yaw_sigma);

@@ -213,11 +213,11 @@ IngestReport SinsDr::take(Stamp stamp, const PassageFix& fix) {
   const Eigen::Matrix3d R_map_n = earth_.R_map_n(belief_.mean.nav.coordinates);
   const std::optional<Estimate> here = estimateAt(stamp);
   if (!here) return refusal(Verdict::TooOld, "older than the state");
-  const Eigen::Vector3d offset = R_map_n.transpose() * (fix.p_map - here->T_map_body.translation);
+  const Eigen::Vector3d offset = R_map_n.transpose() * (fix.p_map - here->T_map_body * fix.p_body);
   const Matrix<3, 3> R = R_map_n.transpose() * fix.covariance * R_map_n;
   Belief<SinsDrState> tried = belief_;
-  const auto told = filters::correct(tried, positionFix(tried.mean, offset, config_.mounts), R,
-                                     {chiSquareQuantile(config_.fix_confidence, 3.0)});
+  const auto told = filters::correct(tried, positionFix(tried.mean, offset, fix.p_body - config_.mounts.imu),
+                                     R, {chiSquareQuantile(config_.fix_confidence, 3.0)});
   IngestReport report{.verdict = told.verdict, .dof = 3, .nis = told.nis};
   if (told.verdict == Verdict::Gated) report.reason = "the fix is too far from where the filter is";
   if (told.verdict == Verdict::Degenerate) report.reason = "the fix has no usable covariance";

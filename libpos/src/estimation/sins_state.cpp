@@ -272,11 +272,11 @@ filters::Innovation<SinsDrState, 2> noSidewaysSpeed(const SinsDrState& x, const 
 }
 
 filters::Innovation<SinsDrState, 3> positionFix(const SinsDrState& x, const Eigen::Vector3d& offset_n,
-                                                const InertialMounts& mounts) {
+                                                const Eigen::Vector3d& lever) {
   auto innovation = empty<3>();
   innovation.nu = offset_n;
   innovation.H.block<3, 3>(0, kPosition).setIdentity();
-  innovation.H.block<3, 3>(0, kPhi) = skew(x.nav.q_n_b * mounts.imu);  // origin = p - C imu
+  innovation.H.block<3, 3>(0, kPhi) = -skew(x.nav.q_n_b * lever);  // point = p + C lever
   return innovation;
 }
 

@@ -343,7 +343,7 @@ void UwbImuCore<Filter>::recover(double innovation) {
 template <class Filter>
 IngestReport UwbImuCore<Filter>::take(Stamp stamp, const PassageFix& fix) {
   if (!filter_) return notStarted();
-  Eigen::Vector3d lever = -config_.mounts.imu;
+  Eigen::Vector3d lever = fix.p_body - config_.mounts.imu;
   for (const TagMount& tag : config_.tags) {
     if (fix.place == "tag " + std::to_string(tag.id)) lever += tag.p_body;
   }

@@ -62,11 +62,12 @@ double PassageCheck::sigmaOf(const Place& place, const RoadTracker& road) const 
 }
 
 /// Whether some other chamber could be meant as well.
-bool PassageCheck::ambiguous(const Place& place, const RoadHypothesis& on, double at, double reach) const {
+bool PassageCheck::ambiguous(const Remembered& now, double reader, const RoadHypothesis& on,
+                             double reach) const {
   return std::any_of(places_.begin(), places_.end(), [&](const Place& other) {
-    if (other.chamber == place.chamber) return false;
+    if (other.chamber == now.place.chamber) return false;
     const auto there = on.path.distanceOf(other.roadway, other.chamber->place.chainage);
-    return there && std::abs(*there - on.foot.distance) <= reach && std::abs(*there - at) > kSamePlace;
+    return there && std::abs(*there - reader) <= reach && std::abs(*there - now.at) > kSamePlace;
   });
 }
 
@@ -87,17 +88,19 @@ bool PassageCheck::ownSide(const Place& place, const RoadHypothesis& on) const {
   return (place.chamber->side == network_.map().driving_side) == forward;
 }
 
-Measurement PassageCheck::fixFor(const Place& place, const RoadHypothesis& on, double at, Stamp stamp,
-                                 double sigma) const {
+Measurement PassageCheck::fixFor(const Remembered& now, const RoadHypothesis& on,
+                                 const ChamberSighting& sighting) const {
+  const Place& place = now.place;
   RoadHypothesis there = on;
   const map::CentrelineState state = network_.centreline(place.roadway).at(place.chamber->place.chainage);
   there.foot.p_map = state.p_map;
   there.foot.heading = state.heading;
-  there.foot.distance = at;
-  PassageFix fix =
-      roadFix(there, sigma, widthSigma(network_.map().roadways[place.roadway]), rules_.vertical_sigma);
+  there.foot.distance = now.at;
+  PassageFix fix = roadFix(there, now.sigma, anywhereBetweenTheWalls(network_.map().roadways[place.roadway]),
+                           rules_.vertical_sigma);
   fix.place = place.chamber->id;
-  return {stamp, kPassageSensor, fix};
+  fix.p_body = sighting.p_body;
+  return {sighting.stamp, kPassageSensor, fix};
 }
 
 Passage PassageCheck::judged(const ChamberSighting& sighting, RoadTracker& road) {
@@ -114,7 +117,9 @@ Passage PassageCheck::judged(const ChamberSighting& sighting, RoadTracker& road)
 
   const double at = *on->path.distanceOf(place->roadway, place->chamber->place.chainage);
   const double sigma = sigmaOf(*place, road);
-  Passage passage{.off = at - on->foot.distance, .off_sigma = std::hypot(on->along_sigma, sigma)};
+  const double ahead = sighting.p_body.x();
+  const double reader = on->distanceOf(ahead);
+  Passage passage{.off = at - reader, .off_sigma = std::hypot(on->along_sigma, sigma)};
   const Remembered now{*place, road.travelled(), at, sigma};
   const double reach = rules_.gate_sigmas * passage.off_sigma;
   if (accepted_ && accepted_->place.chamber == place->chamber &&
@@ -126,17 +131,17 @@ Passage PassageCheck::judged(const ChamberSighting& sighting, RoadTracker& road)
     passage.verdict = PassageVerdict::OutOfReach;
     return passage;
   }
-  if (ambiguous(*place, *on, at, reach) && !confirmed(now)) {
+  if (ambiguous(now, reader, *on, reach) && !confirmed(now)) {
     passage.verdict = PassageVerdict::Ambiguous;
     doubtful_ = now;
     return passage;
   }
   passage.verdict = PassageVerdict::Accepted;
-  passage.fix = fixFor(*place, *on, at, sighting.stamp, sigma);
+  passage.fix = fixFor(now, *on, sighting);
   accepted_ = now;
   doubtful_.reset();
   seen_.push_back(place->chamber->id);
-  road.witness(place->roadway, place->chamber->place.chainage, sigma);
+  road.witness(place->roadway, place->chamber->place.chainage, sigma, ahead);
   return passage;
 }
 

@@ -28,15 +28,18 @@ std::optional<Measurement> RoadAid::offered(const Estimate& estimate, const Road
   if (last_ && (seconds(estimate.stamp - *last_) < 1.0 / rules_.rate || moved < rules_.min_move))
     return std::nullopt;
   if (std::abs(on.foot.curvature) > rules_.straight || on.foot.beyond != 0.0) return std::nullopt;
-  const double across = widthSigma(network_.map().roadways[on.foot.roadway]);
-  if (std::abs(on.foot.offset) > rules_.gate_sigmas * std::hypot(across, on.across_sigma))
+  const map::Roadway& roadway = network_.map().roadways[on.foot.roadway];
+  PlaceAcross across = placeInLane(roadway, network_.map().driving_side, on.facing);
+  if (std::abs(on.foot.offset - across.offset) >
+      rules_.gate_sigmas * std::hypot(across.sigma, on.across_sigma))
     return std::nullopt;
   const double alike = last_ ? std::max(1.0, rules_.correlation / moved) : 1.0;
   const double raised = std::sqrt(alike);
   last_ = estimate.stamp;
   last_travelled_ = road.travelled();
-  PassageFix fix = roadFix(on, rules_.loose, raised * across, rules_.vertical_sigma);
-  fix.place = "roadway " + network_.map().roadways[on.foot.roadway].id;
+  across.sigma *= raised;
+  PassageFix fix = roadFix(on, rules_.loose, across, rules_.vertical_sigma);
+  fix.place = "roadway " + roadway.id;
   fix.yaw = wrapAngle(on.foot.heading + (on.facing ? 0.0 : kPi));
   fix.yaw_sigma = raised * rules_.heading_sigma;
   return Measurement{estimate.stamp, kRoadSensor, fix};

@@ -242,11 +242,11 @@ void RoadTracker::commit() {
   since_confirmed_ = 0.0;
 }
 
-void RoadTracker::witness(map::RoadwayIndex roadway, double chainage, double sigma) {
+void RoadTracker::witness(map::RoadwayIndex roadway, double chainage, double sigma, double ahead) {
   for (RoadHypothesis& h : hypotheses_) {
     const auto at = h.path.distanceOf(roadway, chainage);
     const bool agrees =
-        at && std::abs(*at - h.foot.distance) <= rules_.sigmas * std::hypot(h.along_sigma, sigma);
+        at && std::abs(*at - h.distanceOf(ahead)) <= rules_.sigmas * std::hypot(h.along_sigma, sigma);
     h.prior *= agrees ? 1.0 - rules_.passage_wrong : rules_.passage_wrong;
   }
   double sum = 0.0;

@@ -109,6 +109,7 @@ OptionTable<PassageLine> passageOptions() {
       .required()
       .numbers("covariance", &PassageLine::covariance, anything(), "9 numbers in m^2, row by row.")
       .required()
+      .numbers("sensor_m", &PassageLine::sensor, anything(), "Place on the vehicle that the position is of.")
       .number("yaw_deg", &PassageLine::yaw, anything(), "Heading, where it is known.")
       .number("yaw_sigma_deg", &PassageLine::yaw_sigma, moreThan(0), "Its standard deviation.");
 }

@@ -79,7 +79,8 @@ struct ToReading {
   }
   Reading operator()(const TruthLine& line) const { return PoseTruth{poseOf(line.position, line.angles)}; }
   Reading operator()(const PassageLine& line) const {
-    return PassageFix{line.place, line.position, matrixOf(line.covariance), line.yaw, line.yaw_sigma};
+    return PassageFix{line.place,  line.position, matrixOf(line.covariance),
+                      line.sensor, line.yaw,      line.yaw_sigma};
   }
 };
 
@@ -117,7 +118,7 @@ struct ToLine {
     return TruthLine{r.T_map_body.translation, anglesOf(r.T_map_body)};
   }
   Held operator()(const PassageFix& r) const {
-    return PassageLine{r.place, r.p_map, numbersOf(r.covariance), r.yaw, r.yaw_sigma};
+    return PassageLine{r.place, r.p_map, numbersOf(r.covariance), r.p_body, r.yaw, r.yaw_sigma};
   }
 };
 

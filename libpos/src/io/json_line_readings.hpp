@@ -59,6 +59,7 @@ struct PassageLine {
   std::string place = {};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Numbers covariance = {};
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
   std::optional<double> yaw = {};
   std::optional<double> yaw_sigma = {};
 };

@@ -191,6 +191,7 @@ std::optional<PassageFix> passageFix(const CObservationRobotPose& observation, c
   fix.place = *place;
   fix.p_map = poseFromMrpt(observation.pose.mean).translation;
   fix.covariance = levelCovariance(observation.pose).position;
+  fix.p_body = poseFromMrpt(observation.sensorPose).translation;
   fix.yaw = companion.number("yaw");
   fix.yaw_sigma = companion.number("yaw_sigma");
   return fix;

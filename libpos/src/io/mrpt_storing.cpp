@@ -135,6 +135,7 @@ struct StoreReading {
                                                   reading.yaw.value_or(0.0), 0.0, 0.0);
     const double yaw_sigma = reading.yaw_sigma.value_or(reading.yaw ? 0.0 : kPi);
     observation->pose = gaussianToMrpt(mean, {reading.covariance, yaw_sigma * yaw_sigma});
+    observation->sensorPose.setFromValues(reading.p_body.x(), reading.p_body.y(), reading.p_body.z());
     Companion extra("passage");
     extra.putWord("place", reading.place);
     if (reading.yaw) extra.put("yaw", *reading.yaw);

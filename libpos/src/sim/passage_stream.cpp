@@ -107,7 +107,7 @@ PassageFix PassageStream::fix(const PassagePlace& told, double t) {
   const double along =
       approach ? config_.sigma * config_.sigma + timing * timing : config_.radius * config_.radius / 3.0;
   const double across = config_.sigma_across * config_.sigma_across;
-  PassageFix fix{.place = told.name, .p_map = told.p_map};
+  PassageFix fix{.place = told.name, .p_map = told.p_map, .p_body = config_.antenna_body};
   if (approach) fix.p_map += noise_.normal(0.0, config_.sigma) * way;
   fix.covariance = across * Eigen::Matrix3d::Identity() + (along - across) * way * way.transpose();
   return fix;

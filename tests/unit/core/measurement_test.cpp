@@ -133,6 +133,7 @@ TEST(Defect, TruthThatIsNoNumber) {
 
 TEST(Defect, PassageThatIsNoNumberOrHasABadCovariance) {
   EXPECT_EQ(fault(PassageFix{.p_map = {kNaN, 0.0, 0.0}}), "passage position is not a finite number");
+  EXPECT_EQ(fault(PassageFix{.p_body = {0.0, kNaN, 0.0}}), "passage mount is not a finite number");
   EXPECT_EQ(fault(PassageFix{.covariance = kNotSymmetric}),
             "passage covariance is not positive semi-definite");
   EXPECT_EQ(fault(PassageFix{.yaw = kNaN}), "passage heading is not a finite number");

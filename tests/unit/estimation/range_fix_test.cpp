@@ -62,12 +62,12 @@ TEST(RangeFix, PoseJacobianMatchesNumericDifferences) {
     for (const double yaw : {1e-9, 3.14159, -3.14159, 0.7, -2.2}) {
       RangeState x{RangeState::Values::Constant(layout.size(), 0.4)};
       x.values.head<3>() << 3.0, -2.0, yaw;
-      const Pose2 told{4.0, -1.0, yaw + 0.1};
+      const SeenPoint seen{{4.0, -1.0}, {1.5, -0.4}};
       const auto H = numericJacobian(x, layout.size(), [&](const RangeState& at) -> Eigen::VectorXd {
-        return -poseInnovation(at, layout, told, 0.2, v).nu;  // nu = reading - prediction
+        return -poseInnovation(at, layout, seen, yaw + 0.1, 0.2, v).nu;  // nu = reading - prediction
       });
-      EXPECT_TRUE(poseInnovation(x, layout, told, 0.2, v).H.isApprox(TangentRows<RangeState, 3>(H), 1e-6))
-          << yaw;
+      const auto innovation = poseInnovation(x, layout, seen, yaw + 0.1, 0.2, v);
+      EXPECT_TRUE(innovation.H.isApprox(TangentRows<RangeState, 3>(H), 1e-6)) << yaw;
     }
   }
 }

@@ -121,6 +121,7 @@ TEST(RangeModels, RangeJacobianMatchesNumericDifferences) {
 }
 
 TEST(RangeModels, PositionJacobianMatchesNumericDifferences) {
+  const SeenPoint seen{{3.0, 4.0}, {1.5, -0.4}};
   for (const auto kind : kMotions) {
     const auto config = everythingFreed(kind);
     const RangeLayout layout(config, {});
@@ -128,10 +129,10 @@ TEST(RangeModels, PositionJacobianMatchesNumericDifferences) {
         kind == RangeOdometryConfig::Motion::Odometry ? BodyVelocity{{1.4, -0.1}, 0.3} : BodyVelocity{};
     for (const RangeState& x : states(layout)) {
       const auto H = numericJacobian(x, layout.size(), [&](const RangeState& at) -> Eigen::VectorXd {
-        return -positionInnovation(at, layout, {3.0, 4.0}, 0.2, v).nu;  // nu = reading - prediction
+        return -positionInnovation(at, layout, seen, 0.2, v).nu;  // nu = reading - prediction
       });
       EXPECT_TRUE(
-          positionInnovation(x, layout, {3.0, 4.0}, 0.2, v).H.isApprox(TangentRows<RangeState, 2>(H), 1e-6));
+          positionInnovation(x, layout, seen, 0.2, v).H.isApprox(TangentRows<RangeState, 2>(H), 1e-6));
     }
   }
 }

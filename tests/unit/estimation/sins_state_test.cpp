@@ -85,10 +85,11 @@ TEST(SinsDrModels, EveryInnovationHasItsJacobian) {
         },
         0.05);
     const Eigen::Vector3d seen = Eigen::Vector3d(0.3, 0.2, 0.1);
-    const auto origin = [&](const SinsDrState& y) -> Eigen::Vector3d {
-      return ins::metresBetween(y.earth, x.nav.coordinates, y.nav.coordinates) - y.nav.q_n_b * kMounts.imu;
+    const Eigen::Vector3d lever = Eigen::Vector3d(1.5, -0.3, 0.8) - kMounts.imu;
+    const auto point = [&](const SinsDrState& y) -> Eigen::Vector3d {
+      return ins::metresBetween(y.earth, x.nav.coordinates, y.nav.coordinates) + y.nav.q_n_b * lever;
     };
-    expectH(x, [&](const SinsDrState& y) { return positionFix(y, seen - origin(y), kMounts); });
+    expectH(x, [&](const SinsDrState& y) { return positionFix(y, seen - point(y), lever); });
     expectH(x, [&](const SinsDrState& y) {
       const Pose3 pose{{0, 0, 0}, y.nav.q_n_b};
       return headingFix(y, std::remainder(0.2 - pose.yaw(), 2.0 * M_PI));

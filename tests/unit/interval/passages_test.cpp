@@ -23,8 +23,8 @@ class PassagesTest : public ::testing::Test {
       for (const std::string& id : passages.missed(road)) missed.push_back(id);
     }
   }
-  Passage see(const std::string& chamber) {
-    return passages.judged({stampFromSeconds(x_ / 5.0), chamber}, road);
+  Passage see(const std::string& chamber, const Eigen::Vector3d& reader = Eigen::Vector3d::Zero()) {
+    return passages.judged({stampFromSeconds(x_ / 5.0), chamber, reader}, road);
   }
 
   testing::IntervalDrive scene{testing::intervalDemo()};
@@ -46,6 +46,16 @@ TEST_F(PassagesTest, ARightSightingBecomesAFixWithItsCovarianceInTheRoadsDirecti
   EXPECT_NEAR(fix.p_map.x(), 150.0, 1e-9);
   EXPECT_NEAR(std::sqrt(fix.covariance(0, 0)), 0.3 + 5.0 * 0.05, 0.01);  // sigma_c + v sigma_t
   EXPECT_NEAR(std::sqrt(fix.covariance(1, 1)), testing::kMainWidth / std::sqrt(12.0), 1e-9);
+}
+
+TEST_F(PassagesTest, AReaderAheadOfTheBodyIsThereBeforeIt) {
+  driveTo(144.0, 0.1);
+  const Eigen::Vector3d reader(6.0, 0.0, 2.0);
+  EXPECT_EQ(see("R150").verdict, PassageVerdict::OutOfReach);
+  const Passage passage = see("R150", reader);
+  ASSERT_EQ(passage.verdict, PassageVerdict::Accepted);
+  EXPECT_NEAR(passage.off, 0.0, 1e-9);
+  EXPECT_EQ(std::get<PassageFix>(passage.fix->reading).p_body, reader);
 }
 
 TEST_F(PassagesTest, WrongIdsAreRefusedAndSayWhy) {
@@ -101,7 +111,27 @@ TEST_F(PassagesTest, TheRoadOffersAFixAcrossAndAHeadingOnceASecondAtMost) {
   EXPECT_NEAR(*fix.yaw, 0.0, 1e-12);
   EXPECT_NEAR(std::sqrt(fix.covariance(0, 0)), 1000.0, 1e-6);
   const double alike = 30.0 / 5.0;  // correlation length over the way between two fixes
-  EXPECT_NEAR(std::sqrt(fix.covariance(1, 1)), std::sqrt(alike) * testing::kMainWidth / std::sqrt(12.0), 0.2);
+  const double lane = testing::kMainWidth / 2.0;
+  EXPECT_NEAR(std::sqrt(fix.covariance(1, 1)), std::sqrt(alike) * lane / std::sqrt(12.0), 0.1);
+  EXPECT_NEAR(fix.p_map.y(), -lane / 2.0, 1e-9);  // eastward on the right
+}
+
+TEST_F(PassagesTest, TheOtherWayTheRoadOffersTheOtherLane) {
+  const auto offeredAt = [this](double yaw) {
+    RoadTracker there(scene.network, scene.graph, {});
+    RoadAid aid(scene.network, {});
+    const Matrix<3, 3> P = Vector<3>(0.25, 0.25, 1e-4).asDiagonal();
+    std::optional<Measurement> last;
+    for (int i = 0; i < 50; ++i) {
+      const double x = 100.0 + std::cos(yaw) * 0.5 * i;
+      const Estimate estimate = planarEstimate(stampFromSeconds(0.1 * i), {x, 0.3, yaw}, P);
+      there.take(estimate);
+      if (const auto fix = aid.offered(estimate, there)) last = fix;
+    }
+    return last ? std::get<PassageFix>(last->reading).p_map.y() : 0.0;
+  };
+  EXPECT_NEAR(offeredAt(0.0), -testing::kMainWidth / 4.0, 1e-9);
+  EXPECT_NEAR(offeredAt(kPi), testing::kMainWidth / 4.0, 1e-9);
 }
 
 TEST_F(PassagesTest, AStandingVehicleIsOfferedNothingMore) {

@@ -87,6 +87,7 @@ struct ExpectSame {
     const auto& b = std::get<PassageFix>(other);
     EXPECT_EQ(a.place, b.place);
     EXPECT_EQ(a.p_map, b.p_map);
+    EXPECT_EQ(a.p_body, b.p_body);
     EXPECT_EQ(a.covariance, b.covariance);
     EXPECT_EQ(a.yaw, b.yaw);
     EXPECT_EQ(a.yaw_sigma, b.yaw_sigma);

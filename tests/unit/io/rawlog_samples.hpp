@@ -126,6 +126,7 @@ inline std::vector<Measurement> oneOfEachKind() {
   PassageFix turned = named;
   turned.yaw = 2.5;
   turned.yaw_sigma = 0.01;
+  turned.p_body = {1.5, -0.25, 2.0};
   return {
       {at(1.0), "wheels", OdometryIncrement{{0.3, 0.01, 0.05}, ms(500), {}}},
       {at(1.5), "wheels", OdometryIncrement{{0.4, -0.01, -0.15}, ms(500), P}},

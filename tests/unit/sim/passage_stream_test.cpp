@@ -69,6 +69,7 @@ TEST(PassageStream, EveryPassageGivesOneFixAtTheNearestMoment) {
     EXPECT_FALSE(defect(all[i].measurement));
     EXPECT_EQ(fixOf(all[i]).place, config.places[i].name);
     EXPECT_TRUE(fixOf(all[i]).p_map.isApprox(config.places[i].p_map));
+    EXPECT_EQ(fixOf(all[i]).p_body, config.antenna_body);
     EXPECT_NEAR(scene::secondsOf(all[i]), (config.places[i].p_map.x() - 1.5) / kSpeed, 1e-5);
     EXPECT_GT(all[i].arrival, all[i].measurement.stamp);  // known only once it is past
   }

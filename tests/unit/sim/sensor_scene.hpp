@@ -160,7 +160,9 @@ struct Spelled {
     out << r.T_body_sensor.rotation.coeffs();
     for (std::size_t i = 0; i < r.ranges.size(); ++i) out << ' ' << r.ranges[i] << ' ' << int{r.valid[i]};
   }
-  void operator()(const PassageFix& r) { out << r.place << ' ' << r.p_map << ' ' << r.covariance; }
+  void operator()(const PassageFix& r) {
+    out << r.place << ' ' << r.p_map << ' ' << r.p_body << ' ' << r.covariance;
+  }
   template <typename Other>
   void operator()(const Other&) {
     out << "unexpected";

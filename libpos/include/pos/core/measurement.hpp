@@ -93,13 +93,15 @@ struct PoseTruth {
   Pose3 T_map_body = {};
 };
 
-/// The vehicle passed, or sits in, a known place: a refuge chamber, a portal reader, a dual-UWB pose.
+/// The vehicle passed, or sits in, a known place: a refuge chamber, a portal reader, a dual-UWB pose. The
+/// point `p_body` of the vehicle was at `p_map`.
 struct PassageFix {
   std::string place = {};
-  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
-  Matrix<3, 3> covariance = Matrix<3, 3>::Zero();
-  std::optional<double> yaw = {};        ///< rad
-  std::optional<double> yaw_sigma = {};  ///< rad
+  Eigen::Vector3d p_map = Eigen::Vector3d::Zero();   ///< m
+  Matrix<3, 3> covariance = Matrix<3, 3>::Zero();    ///< m^2, map axes
+  Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< m, FLU: the reader's antenna; 0 is the body's origin
+  std::optional<double> yaw = {};                    ///< rad
+  std::optional<double> yaw_sigma = {};              ///< rad
 };
 
 using Reading = std::variant<OdometryIncrement, WheelSpeeds, WheelTicks, ImuSample, BeaconRange, GnssFix,

@@ -24,7 +24,7 @@ struct RangeReading {
 /// A passage fix as a bank takes it. Without a heading the third row and column of the covariance mean
 /// nothing.
 struct FixReading {
-  Eigen::Vector2d p_map = Eigen::Vector2d::Zero();     ///< m
+  SeenPoint seen = {};
   std::optional<double> yaw = {};                      ///< rad
   Matrix<3, 3> covariance = Matrix<3, 3>::Identity();  ///< x, y (m, map axes), yaw (rad)
   double age = 0.0;                                    ///< s, stamp of the fix minus stamp of the state

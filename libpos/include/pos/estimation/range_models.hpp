@@ -66,14 +66,20 @@ struct RangePrediction {
 RangePrediction predictedRange(const RangeState& x, const RangeLayout& layout,
                                const TangentMatrix<RangeState>& covariance, const RangeGeometry& geometry);
 
-/// A position fix (map frame, m) at `age` seconds after the state; two rows.
+/// A point of the body (m, forward and left) seen at a place of the map (m).
+struct SeenPoint {
+  Eigen::Vector2d p_map = Eigen::Vector2d::Zero();
+  Eigen::Vector2d p_body = Eigen::Vector2d::Zero();
+};
+
+/// A position fix at `age` seconds after the state; two rows.
 filters::Innovation<RangeState, 2> positionInnovation(const RangeState& x, const RangeLayout& layout,
-                                                      const Eigen::Vector2d& p_map, double age,
+                                                      const SeenPoint& seen, double age,
                                                       const BodyVelocity& odometry_velocity);
 
 /// A position fix with a heading (rad) at the same moment; three rows, the last one's nu in (-pi, pi].
 filters::Innovation<RangeState, 3> poseInnovation(const RangeState& x, const RangeLayout& layout,
-                                                  const Pose2& T_map_body, double age,
+                                                  const SeenPoint& seen, double yaw, double age,
                                                   const BodyVelocity& odometry_velocity);
 
 }  // namespace pos::estimation

@@ -82,9 +82,10 @@ filters::Innovation<SinsDrState, 3> zeroRate(const SinsDrState& x, const Eigen::
 /// No sideways and no upward speed of the axle, body axes; `rate` is the body's, rad/s.
 filters::Innovation<SinsDrState, 2> noSidewaysSpeed(const SinsDrState& x, const Eigen::Vector3d& rate,
                                                     const InertialMounts& mounts);
-/// The body's origin is seen at `offset_n` metres (n axes) from where the state puts it.
+/// A point of the body is seen at `offset_n` metres (n axes) from where the state puts it; `lever` leads from
+/// the inertial unit to it (m, FLU).
 filters::Innovation<SinsDrState, 3> positionFix(const SinsDrState& x, const Eigen::Vector3d& offset_n,
-                                                const InertialMounts& mounts);
+                                                const Eigen::Vector3d& lever);
 /// The heading is seen to differ by `difference` rad (seen minus the state's).
 filters::Innovation<SinsDrState, 1> headingFix(const SinsDrState& x, double difference);
 

@@ -14,7 +14,8 @@ namespace pos::interval {
 /// A reader, radio or camera says that the vehicle is beside this chamber now.
 struct ChamberSighting {
   Stamp stamp = {};
-  std::string chamber = {};  ///< id
+  std::string chamber = {};                          ///< id
+  Eigen::Vector3d p_body = Eigen::Vector3d::Zero();  ///< m, FLU: where on the vehicle the reader is
 };
 
 struct PassageRules {
@@ -41,7 +42,7 @@ std::string_view name(PassageVerdict verdict);
 
 struct Passage {
   PassageVerdict verdict = PassageVerdict::NoPosition;
-  double off = 0.0;                     ///< m, chamber minus estimate along the path
+  double off = 0.0;                     ///< m, chamber minus estimated reader along the path
   double off_sigma = 0.0;               ///< m
   std::optional<Measurement> fix = {};  ///< with Accepted: position with full covariance, for `ingest`
 };
@@ -72,12 +73,12 @@ class PassageCheck {
     double sigma = 0.0;
   };
   const Place* find(const std::string& chamber) const;
-  bool ambiguous(const Place& place, const RoadHypothesis& on, double at, double reach) const;
+  /// `reader`: m, path coordinate of the reader as estimated.
+  bool ambiguous(const Remembered& now, double reader, const RoadHypothesis& on, double reach) const;
   bool confirmed(const Remembered& now) const;
   bool ownSide(const Place& place, const RoadHypothesis& on) const;
   double sigmaOf(const Place& place, const RoadTracker& road) const;
-  Measurement fixFor(const Place& place, const RoadHypothesis& on, double at, Stamp stamp,
-                     double sigma) const;
+  Measurement fixFor(const Remembered& now, const RoadHypothesis& on, const ChamberSighting& sighting) const;
 
   map::Network network_;
   PassageRules rules_;

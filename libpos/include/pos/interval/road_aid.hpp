@@ -15,7 +15,7 @@ struct RoadAidRules {
   double heading_sigma = 0.0873;  ///< rad, 5 degrees
   double loose = 1000.0;          ///< m, sigma along the road: it says nothing about that
   double vertical_sigma = 1.0;    ///< m
-  /// m over which the vehicle keeps its place between the walls; readings nearer to each other than this are
+  /// m over which the vehicle keeps its place in the lane; readings nearer to each other than this are
   /// not independent, and the variances are raised by the number of readings on that way.
   double correlation = 30.0;
   double gate_sigmas = 3.0;  ///< offsets beyond this many sigmas are not offered
@@ -29,7 +29,8 @@ inline constexpr const char* kRoadSensor = "roadway";
 class RoadAid {
  public:
   RoadAid(const map::Network& network, const RoadAidRules& rules);
-  /// A fix across the road and of the heading, when the road is decided and it is time for one.
+  /// A fix across the road (in its lane, where there are two) and of the heading, when the road is decided
+  /// and it is time for one.
   std::optional<Measurement> offered(const Estimate& estimate, const RoadTracker& road);
 
  private:

@@ -32,6 +32,9 @@ struct RoadHypothesis {
   double across_sigma = 0.0;  ///< m
   double log_likelihood = 0.0;
   double probability = 1.0;
+
+  /// m, path coordinate of the vehicle's point that lies `ahead` (m) of its origin.
+  double distanceOf(double ahead) const { return foot.distance + (facing ? ahead : -ahead); }
 };
 
 /// What became of the match.
@@ -48,8 +51,9 @@ class RoadTracker {
 
   /// Stamps must not decrease.
   void take(const Estimate& estimate);
-  /// A sign that the vehicle is at this place (a chamber passage): hypotheses that agree gain.
-  void witness(map::RoadwayIndex roadway, double chainage, double sigma);
+  /// A sign that the vehicle's point `ahead` (m) of its origin is at this place (a chamber passage):
+  /// hypotheses that agree gain.
+  void witness(map::RoadwayIndex roadway, double chainage, double sigma, double ahead = 0.0);
 
   MatchState state() const { return state_; }
   /// Sum of probabilities is one; empty while Waiting.
