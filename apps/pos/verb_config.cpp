@@ -9,6 +9,7 @@
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/run_config.hpp"
 #include "pos/io/scenario_yaml.hpp"
+#include "starter_file.hpp"
 
 namespace pos::app {
 namespace {
@@ -83,8 +84,10 @@ void addConfig(const Verbs& verbs) {
   addWriter(*schema, "locks", "Write the JSON Schema of a configuration of locks",
             [] { return io::jsonSchema(io::locksOptions()); });
   addFll(*verb);
-  addWriter(*verb, "init", "Write an example configuration with every key explained",
-            [] { return io::exampleRunConfig(); });
+  CLI::App* init = verb->add_subcommand("init", "Write an example configuration with every key explained");
+  auto file = std::make_shared<StarterFile>();
+  addStarterFile(*init, *file);
+  init->callback([file] { file->write(io::exampleRunConfig()); });
 }
 
 }  // namespace pos::app

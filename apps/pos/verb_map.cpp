@@ -11,6 +11,7 @@
 #include "pos/io/map_diff.hpp"
 #include "pos/io/text.hpp"
 #include "pos/map/routes.hpp"
+#include "starter_file.hpp"
 
 namespace pos::app {
 namespace {
@@ -143,11 +144,10 @@ void refuseGiven(const std::vector<const CLI::Option*>& options, const std::stri
 
 void addMapInit(CLI::App& parent, const Verbs&) {
   CLI::App* verb = parent.add_subcommand("init", "Write a small map with every key explained");
-  auto out = std::make_shared<std::string>();
-  verb->add_option("--out", *out, "File to write, instead of standard output");
-  verb->callback([out] {
-    const std::string text = io::exampleYaml(io::MapFile{.map = starterMap(), .grid = {}}, io::mapOptions());
-    out->empty() ? print(text) : writeFile(*out, text);
+  auto file = std::make_shared<StarterFile>();
+  addStarterFile(*verb, *file);
+  verb->callback([file] {
+    file->write(io::exampleYaml(io::MapFile{.map = starterMap(), .grid = {}}, io::mapOptions()));
   });
 }
 

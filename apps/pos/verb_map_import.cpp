@@ -8,6 +8,7 @@
 #include "pos/io/dxf_map.hpp"
 #include "pos/io/map_geojson.hpp"
 #include "pos/io/map_tables.hpp"
+#include "starter_file.hpp"
 #include "verb_map.hpp"
 
 namespace pos::app {
@@ -137,16 +138,8 @@ void sayImport(const Imported& import, const std::string& out, const Voice& voic
             std::to_string(map.anchors.size()) + " anchors");
 }
 
-void requireFree(const std::string& out, bool force) {
-  if (force || !fs::exists(out)) return;
-  throw UsageError(Complaint{.what = "the file is there already",
-                             .key = "--out",
-                             .got = out,
-                             .suggestion = "name another file, or add --force to replace it"});
-}
-
 void runImport(const ImportFiles& files, const Voice& voice) {
-  requireFree(files.out, files.force);
+  StarterFile{files.out, files.force}.requireFree();
   Imported import = imported(files);
   std::string& name = import.file.map.name;
   if (!files.name.empty()) name = files.name;

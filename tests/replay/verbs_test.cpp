@@ -80,6 +80,9 @@ TEST_F(Verbs, MapAndConfigurationConversionsWork) {
   EXPECT_NE(bench_.read("room.beaconmap"), "");
   EXPECT_NE(bench_.read("room.gridmap.gz"), "");
   expectOk({"config", "init", "--out", "mine.yaml"});
+  const RunResult again = bench_.pos({"config", "init", "--out", "mine.yaml"});
+  EXPECT_NE(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
   expectOk({"config", "check", "mine.yaml", "--keys-only"});
   EXPECT_FALSE(json::parse(expectOk({"config", "schema"}).out).empty());
   expectOk({"config", "check", config_});

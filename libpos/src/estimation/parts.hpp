@@ -2,6 +2,7 @@
 /// Small parts that several estimators are made of. Private to estimation.
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "pos/core/square.hpp"
@@ -26,6 +27,15 @@ inline std::optional<IngestReport> refusedUnseen(const Measurement& measurement,
 /// Whether a reading with this answer moves the estimator's time on: readings that it cannot use do not.
 inline bool movesTimeOn(const IngestReport& report) {
   return report.verdict != Verdict::Unsupported && report.verdict != Verdict::Degenerate;
+}
+
+/// Adds the components of an axis vector: `stem`_x_`unit` and so on; `sigma` of the state's row `row` + axis.
+template <class SigmaOfRow>
+void addAxes(Diagnostics& values, const std::string& stem, const std::string& unit,
+             const Eigen::Vector3d& components, int row, SigmaOfRow&& sigma) {
+  const char* axes = "xyz";
+  for (int i = 0; i < 3; ++i)
+    values.push_back({stem + "_" + axes[i] + "_" + unit, components[i], sigma(row + i)});
 }
 
 /// Covariance of three like, independent components of standard deviation `sigma`.

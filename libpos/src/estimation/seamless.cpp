@@ -228,20 +228,11 @@ Diagnostics Seamless::diagnostics() const {
                      {"probability_uwb", now.probability(kUwb)},
                      {"gnss_variance_scale", now.gnssScale()},
                      {"uwb_variance_scale", now.uwbScale()}};
-  const char* axes = "xyz";
   const auto sigma = [&](int row) { return running_ ? std::sqrt(std::max(0.0, P(row, row))) : 0.0; };
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("velocity_") + axes[i] + "_m_per_s", best.mean.v_map[i],
-                      sigma(EskfState::kVelocity + i)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("accelerometer_bias_") + axes[i] + "_m_per_s2",
-                      best.mean.accelerometer_bias[i], sigma(EskfState::kAccelerometerBias + i)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("gyro_bias_") + axes[i] + "_rad_per_s", best.mean.gyro_bias[i],
-                      sigma(EskfState::kGyroBias + i)});
-  }
+  addAxes(values, "velocity", "m_per_s", best.mean.v_map, EskfState::kVelocity, sigma);
+  addAxes(values, "accelerometer_bias", "m_per_s2", best.mean.accelerometer_bias,
+          EskfState::kAccelerometerBias, sigma);
+  addAxes(values, "gyro_bias", "rad_per_s", best.mean.gyro_bias, EskfState::kGyroBias, sigma);
   return values;
 }
 

@@ -59,15 +59,8 @@ Diagnostics Shearer::diagnostics() const {
     values.push_back({"angle_scale", x.sensor.angle_scale, sigma(x.sensorRow() + 4)});
     values.push_back({"angle_curve_per_rad", x.sensor.angle_curve, sigma(x.sensorRow() + 5)});
   }
-  const char* axes = "xyz";
-  for (int i = 0; i < 3; ++i) {
-    values.push_back(
-        {std::string("gyro_bias_") + axes[i] + "_rad_per_s", x.gyro_bias[i], sigma(kGyroBias + i)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("accelerometer_bias_") + axes[i] + "_m_per_s2", x.accelerometer_bias[i],
-                      sigma(kAccelerometerBias + i)});
-  }
+  addAxes(values, "gyro_bias", "rad_per_s", x.gyro_bias, kGyroBias, sigma);
+  addAxes(values, "accelerometer_bias", "m_per_s2", x.accelerometer_bias, kAccelerometerBias, sigma);
   for (const DwellCreep& dwell : creep_.creeps()) {
     const std::string name = "creep_" + std::to_string(dwell.operation);
     values.push_back({name + "_weak_share", dwell.weak_share});

@@ -278,18 +278,9 @@ Diagnostics SinsDr::diagnostics() const {
                      {"wheel_scale", x.scale, sigma(kScale)},
                      {"difference_sigma_m", std::sqrt(noise_.R()(0, 0))},
                      {"difference_nis", last_nis_}};
-  const char* axes = "xyz";
-  for (int i = 0; i < 3; ++i) {
-    values.push_back(
-        {std::string("gyro_bias_") + axes[i] + "_rad_per_s", x.gyro_bias[i], sigma(kGyroBias + i)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("accelerometer_bias_") + axes[i] + "_m_per_s2", x.accelerometer_bias[i],
-                      sigma(kAccelerometerBias + i)});
-  }
-  for (int i = 0; i < 3; ++i) {
-    values.push_back({std::string("velocity_") + axes[i] + "_m_per_s", x.nav.v_n[i], sigma(kVelocity + i)});
-  }
+  addAxes(values, "gyro_bias", "rad_per_s", x.gyro_bias, kGyroBias, sigma);
+  addAxes(values, "accelerometer_bias", "m_per_s2", x.accelerometer_bias, kAccelerometerBias, sigma);
+  addAxes(values, "velocity", "m_per_s", x.nav.v_n, kVelocity, sigma);
   return values;
 }
 

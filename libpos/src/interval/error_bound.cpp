@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numeric>
-#include <string>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
+#include "pos/core/square.hpp"
 
 namespace pos::interval {
 namespace {
-
-double square(double value) {
-  return value * value;
-}
 
 /// Longest way of `merge` neighbouring spacings; at the end of a leg there may be fewer.
 double longest(const std::vector<double>& spacings, std::size_t merge) {
@@ -29,13 +24,13 @@ double longest(const std::vector<double>& spacings, std::size_t merge) {
 }  // namespace
 
 DriftModel validated(DriftModel drift) {
-  for (const double value : {drift.reset_along, drift.reset_across, drift.scale, drift.random_along,
-                             drift.heading, drift.gyro_bias, drift.gyro_noise}) {
-    if (!std::isfinite(value) || value < 0.0) {
-      throw ConfigError(Complaint{
-          .what = "a drift is negative or no number", .got = std::to_string(value), .expected = ">= 0"});
-    }
-  }
+  requireNotNegative(drift.reset_along, "reset_along", "m");
+  requireNotNegative(drift.reset_across, "reset_across", "m");
+  requireNotNegative(drift.scale, "scale");
+  requireNotNegative(drift.random_along, "random_along", "m");
+  requireNotNegative(drift.heading, "heading", "rad");
+  requireNotNegative(drift.gyro_bias, "gyro_bias", "rad/s");
+  requireNotNegative(drift.gyro_noise, "gyro_noise", "rad/sqrt(s)");
   return drift;
 }
 

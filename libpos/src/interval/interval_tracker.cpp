@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::interval {
 namespace {
@@ -26,12 +26,10 @@ bool inLane(map::Lane lane, Direction facing) {
 }  // namespace
 
 IntervalRules validated(IntervalRules rules) {
-  const bool good = rules.listed >= 0.0 && rules.listed < 1.0 && rules.certain > kHalf &&
-                    rules.certain < 1.0 && rules.speed_sigma >= 0.0 && rules.slowest > 0.0;
-  if (!good) {
-    throw ConfigError(Complaint{.what = "a rule of the interval positioning is out of range",
-                                .expected = "listed in [0, 1), certain in (0.5, 1), speeds not negative"});
-  }
+  require(rules.listed >= 0.0 && rules.listed < 1.0, "listed", "a probability, below 1");
+  require(rules.certain > kHalf && rules.certain < 1.0, "certain", "a probability above 0.5 and below 1");
+  requireNotNegative(rules.speed_sigma, "speed_sigma", "m/s");
+  requirePositive(rules.slowest, "slowest", "m/s");
   return rules;
 }
 

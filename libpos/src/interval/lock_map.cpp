@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 
 namespace pos::interval {
 namespace {
@@ -39,14 +39,11 @@ bool sharesLane(map::Lane a, map::Lane b) {
 }  // namespace
 
 LockMapRules validated(LockMapRules rules) {
-  for (const double value :
-       {rules.bay_margin, rules.junction_reach, rules.stop_line, rules.queue_length, rules.queue_margin}) {
-    if (!std::isfinite(value) || value < 0.0) {
-      throw ConfigError(Complaint{.what = "a length of the lock map is negative or no number",
-                                  .got = std::to_string(value),
-                                  .expected = ">= 0 m"});
-    }
-  }
+  requireNotNegative(rules.bay_margin, "bay_margin", "m");
+  requireNotNegative(rules.junction_reach, "junction_reach", "m");
+  requireNotNegative(rules.stop_line, "stop_line", "m");
+  requireNotNegative(rules.queue_length, "queue_length", "m");
+  requireNotNegative(rules.queue_margin, "queue_margin", "m");
   return rules;
 }
 

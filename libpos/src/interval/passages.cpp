@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "pos/core/angle.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "road_fix.hpp"
 
 namespace pos::interval {
@@ -15,12 +15,12 @@ constexpr double kSamePlace = 1.0;  // m, chambers nearer to each other (on the 
 }  // namespace
 
 PassageRules validated(PassageRules rules) {
-  const bool good = rules.gate_sigmas > 0.0 && rules.stamp_sigma >= 0.0 && rules.missed_margin >= 0.0 &&
-                    rules.repeat_within >= 0.0 && rules.odometer_scale >= 0.0 && rules.vertical_sigma > 0.0;
-  if (!good) {
-    throw ConfigError(
-        Complaint{.what = "a rule of the chamber passages is out of range", .expected = ">= 0"});
-  }
+  requirePositive(rules.gate_sigmas, "gate_sigmas");
+  requireNotNegative(rules.stamp_sigma, "stamp_sigma", "s");
+  requireNotNegative(rules.missed_margin, "missed_margin", "m");
+  requireNotNegative(rules.repeat_within, "repeat_within", "m");
+  requireNotNegative(rules.odometer_scale, "odometer_scale");
+  requirePositive(rules.vertical_sigma, "vertical_sigma", "m");
   return rules;
 }
 

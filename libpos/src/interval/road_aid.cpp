@@ -4,17 +4,20 @@
 #include <cmath>
 
 #include "pos/core/angle.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
 #include "road_fix.hpp"
 
 namespace pos::interval {
 
 RoadAidRules validated(RoadAidRules rules) {
-  const bool good = rules.rate > 0.0 && rules.min_move > 0.0 && rules.heading_sigma > 0.0 &&
-                    rules.loose > 0.0 && rules.vertical_sigma > 0.0 && rules.correlation >= 0.0 &&
-                    rules.gate_sigmas > 0.0 && rules.straight >= 0.0;
-  if (!good)
-    throw ConfigError(Complaint{.what = "a rule of the roadway aid is out of range", .expected = "> 0"});
+  requirePositive(rules.rate, "rate", "Hz");
+  requirePositive(rules.min_move, "min_move", "m");
+  requirePositive(rules.heading_sigma, "heading_sigma", "rad");
+  requirePositive(rules.loose, "loose", "m");
+  requirePositive(rules.vertical_sigma, "vertical_sigma", "m");
+  requireNotNegative(rules.correlation, "correlation", "m");
+  requirePositive(rules.gate_sigmas, "gate_sigmas");
+  requireNotNegative(rules.straight, "straight", "1/m");
   return rules;
 }
 

@@ -5,7 +5,8 @@
 #include <map>
 
 #include "pos/core/angle.hpp"
-#include "pos/core/error.hpp"
+#include "pos/core/config_checks.hpp"
+#include "pos/core/square.hpp"
 
 namespace pos::interval {
 namespace {
@@ -16,10 +17,6 @@ constexpr double kSpeedMemory = 1.0;    // s
 constexpr double kSideways = 0.3;       // |cos| below which a vehicle does not tell which way it faces
 constexpr double kBehind = 10.0;        // m more than the reach before what is behind is forgotten
 constexpr double kOutsideMargin = 1.0;  // m beyond the wall and the reach before it counts as outside
-
-double square(double value) {
-  return value * value;
-}
 
 Direction opposite(Direction d) {
   return d == Direction::Forward ? Direction::Backward : Direction::Forward;
@@ -39,15 +36,14 @@ std::vector<PathLeg> legsFrom(const map::RoadGraph& graph, std::size_t node, std
 }  // namespace
 
 MatchRules validated(MatchRules rules) {
-  const bool good = rules.heading_sigma > 0.0 && rules.commit > 0.5 && rules.commit < 1.0 &&
-                    rules.sigmas > 0.0 && rules.look_ahead >= 0.0 && rules.lost_after >= 0.0 &&
-                    rules.reacquire_slack >= 0.0 && rules.passage_wrong > 0.0 && rules.passage_wrong < 1.0 &&
-                    rules.hypotheses_at_most >= 2;
-  if (!good) {
-    throw ConfigError(
-        Complaint{.what = "a rule of the map matching is out of range",
-                  .expected = "sigmas above zero, probabilities between 0 and 1, commit above 0.5"});
-  }
+  requirePositive(rules.heading_sigma, "heading_sigma", "rad");
+  require(rules.commit > 0.5 && rules.commit < 1.0, "commit", "a probability above 0.5 and below 1");
+  requirePositive(rules.sigmas, "sigmas");
+  requireNotNegative(rules.look_ahead, "look_ahead", "m");
+  requireNotNegative(rules.lost_after, "lost_after", "s");
+  requireNotNegative(rules.reacquire_slack, "reacquire_slack", "m");
+  requireConfidence(rules.passage_wrong, "passage_wrong");
+  require(rules.hypotheses_at_most >= 2, "hypotheses_at_most", "2 or more");
   return rules;
 }
 

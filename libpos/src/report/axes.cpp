@@ -47,18 +47,26 @@ Plot over(const Box& box, Scale x, Scale y) {
 
 }  // namespace
 
+double roundStep(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (least <= factor * power * 1.0001) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+double roundLength(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * power <= most) return factor * power;
+  }
+  return power;
+}
+
 std::vector<double> niceTicks(double low, double high, int wanted) {
   std::vector<double> ticks;
   if (!(high > low) || wanted < 1) return ticks;
-  const double rough = (high - low) / wanted;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * power;
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (rough <= factor * power * 1.0001) {
-      step = factor * power;
-      break;
-    }
-  }
+  const double step = roundStep((high - low) / wanted);
   const double slack = 1e-9 * (high - low);
   for (double k = std::ceil((low - slack) / step); k * step <= high + slack; k += 1.0)
     ticks.push_back(k * step);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "figure_parts.hpp"
+#include "pos/report/axes.hpp"
 #include "pos/report/png.hpp"
 #include "pos/report/text.hpp"
 
@@ -109,15 +110,6 @@ void drawAnchors(Svg& svg, const Plot& plot, const std::vector<map::Anchor>& anc
     svg.text({at.x + (near_right ? -10.0 : 10.0), at.y + 4.0}, std::to_string(anchor.id),
              near_right ? "end strong halo" : "start strong halo");
   }
-}
-
-/// The longest of 1, 2 or 5 times a power of ten that is no longer than `most`; most > 0.
-double roundLength(double most) {
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= most) return factor * power;
-  }
-  return power;
 }
 
 /// Bottom left, or bottom right where an anchor is in the way.

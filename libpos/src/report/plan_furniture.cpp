@@ -170,15 +170,6 @@ void drawZone(Sheet& sheet, const map::RestrictedZone& zone) {
                .colour = "#a31515"});
 }
 
-/// 1, 2 or 5 times a power of ten, at least `least`.
-double roundStep(double least) {
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
-  }
-  return 10.0 * power;
-}
-
 /// Ticks stand on the right wall (seen along growing chainage) and point outwards, but not into another
 /// roadway or a chamber.
 void drawTicks(Sheet& sheet, map::RoadwayIndex i) {

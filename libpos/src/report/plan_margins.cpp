@@ -40,14 +40,6 @@ void drawNorth(Drawing& drawing, const North& north, Pixel centre) {
                         .bold = true});
 }
 
-double roundLength(double most) {
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  for (const double factor : {5.0, 2.0}) {
-    if (factor * power <= most) return factor * power;
-  }
-  return power;
-}
-
 void drawScaleBar(Drawing& drawing, Pixel left, double metres_per_pixel) {
   const double length = roundLength(220.0 * metres_per_pixel);
   const double pixels = length / metres_per_pixel;

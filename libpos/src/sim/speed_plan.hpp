@@ -20,7 +20,6 @@ class SpeedPlan {
   std::size_t size() const { return pieces_.size(); }
   const SpeedPiece& piece(std::size_t i) const { return pieces_[i]; }
   double startOf(std::size_t i) const { return starts_[i]; }
-  double wayBefore(std::size_t i) const { return ways_[i]; }
   /// Piece ends and corners within (0, duration).
   const std::vector<double>& breaks() const { return breaks_; }
 

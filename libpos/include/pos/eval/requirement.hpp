@@ -1,12 +1,10 @@
 #pragma once
 /// `--require 'p95_xy<1.0'`: a limit that a run must keep.
 
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "pos/eval/run_summary.hpp"
+#include "pos/eval/metrics.hpp"
 
 namespace pos::eval {
 
@@ -20,21 +18,11 @@ struct Requirement {
   double limit = 0.0;
 };
 
-/// Figures of one estimator by full name, as metrics() gives them.
-struct NamedMetrics {
-  std::string estimator;
-  std::map<std::string, std::optional<double>> values;
-};
-
 /// The outcome for one estimator.
 struct RequirementResult {
   bool passed = false;
   std::string line;  ///< "pass  range_odometry: errors.xy.p95 = 0.412 < 1"
 };
-
-/// Every figure of an estimator under the name it has in summary.json below `estimators.<name>` (yaw in
-/// degrees); nothing where this run gives the figure no value (no truth, no heading in it, ...).
-std::map<std::string, std::optional<double>> metrics(const EstimatorSummary& estimator, Duration log_span);
 
 /// The requirement is on a figure of one sensor, window or switch. Which of these there are is known after
 /// the run only, so that it cannot be checked for mistyped names before.

@@ -8,6 +8,11 @@
 
 namespace pos::report {
 
+/// 1, 2 or 5 times a power of ten: the least that is no less than `least`, and the greatest that is no more
+/// than `most` (both above zero).
+double roundStep(double least);
+double roundLength(double most);
+
 /// Round values (1, 2 or 5 times a power of ten) inside [low, high], about `wanted` of them.
 std::vector<double> niceTicks(double low, double high, int wanted);
 /// Powers of ten inside [low, high].
