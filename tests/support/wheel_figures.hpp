@@ -20,6 +20,7 @@
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/sim/scenario.hpp"
 #include "pos/sim/simulation.hpp"
+#include "support/road_help.hpp"
 
 namespace pos::testing {
 
@@ -113,12 +114,16 @@ inline std::map<std::string, WheelRun> wheelRun(
     std::unique_ptr<estimation::Estimator> estimator;
     WheelRun run;
     OutWatch watch;
+    std::unique_ptr<RoadHelp> road = {};  ///< where the configuration gives it the roadway's help
   };
   std::vector<Entry> entries;
   for (const io::EstimatorEntry& e : scene.config.estimators) {
     estimation::EstimatorConfig config = e.config;
     if (edit) edit(config, seed);
     entries.push_back({e.name, estimation::makeEstimator(config, scene.map), {}, {}});
+    const auto& intervals = scene.config.intervals;
+    if (intervals && intervals->aids(e.name))
+      entries.back().road = std::make_unique<RoadHelp>(scene.map, *intervals);
   }
   double way = 0.0;
   Pose2 truth = simulation.truthPoseAt(simulation.start()).planar();
@@ -138,6 +143,7 @@ inline std::map<std::string, WheelRun> wheelRun(
     for (Entry& e : entries) {
       const IngestReport report = e.estimator->ingest(m);
       if (wheels) e.watch.take(e.run, report, t);
+      if (due && e.road) e.road->give(*e.estimator, m.stamp);
       if (due && t >= scene.from) score(e.run, *e.estimator, truth, m.stamp);
     }
   }
