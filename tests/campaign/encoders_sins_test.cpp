@@ -38,6 +38,20 @@ TEST(EncodersSins, Be1FinalHeadings) {
   EXPECT_NEAR(testing::rms(all.at("encoders_attitude"), endYawDeg), 1.0547, 0.1);
 }
 
+/// The inertial heading loses as much by a wrong gyro scale: more on the way, 1.6 degrees after the first
+/// turn.
+TEST(EncodersSins, Be1WithAWrongGyroScale) {
+  WheelScene scene = sceneOf("heading");
+  scene.scenario = io::loadScenario(
+      std::filesystem::path(POS_SOURCE_DIR) / "configs/scenarios/be1_curve_scale.yaml", {}, {});
+  const WheelRuns all = testing::wheelRuns(scene, kRuns);
+  testing::printFigures("B-E1, wrong gyro scale", all);
+  const double fused = testing::rms(all.at("ekf_heading"), endYawDeg);
+  EXPECT_LE(fused, testing::rms(all.at("encoders"), endYawDeg));
+  EXPECT_LE(fused, testing::rms(all.at("encoders_attitude"), endYawDeg));
+  EXPECT_NEAR(testing::rms(all.at("encoders_attitude"), endYawDeg), 1.0547, 0.1);
+}
+
 TEST(EncodersSins, Be2LoopWithAndWithoutZaru) {
   const WheelRuns all = testing::wheelRuns(sceneOf("loop"), kRuns);
   testing::printFigures("B-E2", all);
@@ -51,7 +65,9 @@ TEST(EncodersSins, Be2LoopWithAndWithoutZaru) {
 TEST(EncodersSins, Be3Slip) {
   const WheelRuns all = testing::wheelRuns(sceneOf("slip"), kRuns);
   testing::printFigures("B-E3", all);
-  EXPECT_GE(quantile(all.at("believed"), 0.5, endXy), 1.0);
+  const double believed = testing::rms(all.at("believed"), endXy);
+  std::printf("believed: rms at the end %.3f m\n", believed);
+  EXPECT_GE(believed, 1.0);
   EXPECT_LE(quantile(all.at("isolated"), 0.9, maxXy), 0.35);
   EXPECT_LE(quantile(all.at("isolated"), 0.9, endXy), 0.15);
   EXPECT_LE(quantile(all.at("isolated_standstill"), 0.9, maxXy), 0.10);

@@ -17,6 +17,7 @@ OptionTable<Mount> mountOptions() {
 struct TriadKeys {
   std::string bias;
   std::string bias_sigma;
+  std::string moving_bias;
   std::string noise;
   std::string instability;
   std::string walk;
@@ -30,6 +31,8 @@ OptionTable<TriadErrors> triadOptions(const std::string& title, const std::strin
       .numbers(keys.bias, &TriadErrors::bias, anything(), "Bias of each axis, the same in every run.")
       .number(keys.bias_sigma, &TriadErrors::bias_sigma, atLeast(0),
               "Bias drawn once a run and axis, standard deviation.")
+      .numbers(keys.moving_bias, &TriadErrors::moving_bias, anything(),
+               "Added while the vehicle moves; standing still does not show it.")
       .number(keys.noise, &TriadErrors::noise_density, atLeast(0), "White noise.")
       .number(keys.instability, &TriadErrors::instability_sigma, atLeast(0),
               "Standard deviation of a bias that wanders about its mean.")
@@ -130,6 +133,7 @@ OptionTable<ImuModel> imuModelOptions() {
           triadOptions("gyro", "Errors of the gyros.",
                        {.bias = "bias_deg_per_h",
                         .bias_sigma = "bias_sigma_deg_per_h",
+                        .moving_bias = "moving_bias_deg_per_h",
                         .noise = "noise_deg_per_sqrt_h",
                         .instability = "instability_deg_per_h",
                         .walk = "walk_deg_per_h_per_sqrt_h",
@@ -141,6 +145,7 @@ OptionTable<ImuModel> imuModelOptions() {
           triadOptions("accelerometer", "Errors of the accelerometers.",
                        {.bias = "bias_ug",
                         .bias_sigma = "bias_sigma_ug",
+                        .moving_bias = "moving_bias_ug",
                         .noise = "noise_ug_per_sqrt_hz",
                         .instability = "instability_ug",
                         .walk = "walk_m_per_s2_per_sqrt_s",

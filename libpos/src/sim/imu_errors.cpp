@@ -30,6 +30,8 @@ Eigen::Matrix3d gainMatrix(const TriadErrors& errors, RandomStream& random) {
 
 void requireUsable(const TriadErrors& errors, const std::string& key) {
   if (!errors.bias.allFinite()) refuse("the bias is no number", key + ".bias", "", "three numbers");
+  if (!errors.moving_bias.allFinite())
+    refuse("the bias is no number", key + ".moving_bias", "", "three numbers");
   if (!errors.scale.allFinite()) refuse("the scale is no number", key + ".scale", "", "three numbers");
   requireNotNegative(errors.bias_sigma, key + ".bias_sigma");
   requireNotNegative(errors.noise_density, key + ".noise_density");
@@ -64,9 +66,11 @@ void TriadNoise::drift(double dt) {
   if (errors_.walk_density > 0.0) walk_ += errors_.walk_density * std::sqrt(dt) * normals(drift_);
 }
 
-Eigen::Vector3d TriadNoise::reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind) {
+Eigen::Vector3d TriadNoise::reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind,
+                                    Ride ride) {
   drift(dt);
   Eigen::Vector3d value = gain_ * average + bias_ + instability_ + walk_;
+  if (ride == Ride::Moving) value += errors_.moving_bias;
   if (errors_.noise_density > 0.0) value += errors_.noise_density / std::sqrt(dt) * normals(noise_);
   if (errors_.limit > 0.0) value = value.cwiseMax(-errors_.limit).cwiseMin(errors_.limit);
   return rounded(kind == ImuSample::Kind::Increments ? (value * dt).eval() : value, kind);

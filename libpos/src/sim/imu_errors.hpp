@@ -10,8 +10,9 @@ class TriadNoise {
   enum class Part : std::uint32_t { Gyros = 0, Accelerometers = 1 };
   TriadNoise(const TriadErrors& errors, Part part, const Timing& timing, const RunSetup& run);
 
+  enum class Ride { Standing, Moving };
   /// The reading for the exact average (U) over the next interval of `dt` s; for Increments multiplied by dt.
-  Eigen::Vector3d reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind);
+  Eigen::Vector3d reading(const Eigen::Vector3d& average, double dt, ImuSample::Kind kind, Ride ride);
 
  private:
   void drift(double dt);

@@ -9,6 +9,7 @@ namespace pos::sim {
 namespace {
 
 constexpr double kRounding = 1e-9;  // s
+constexpr double kStanding = 1e-3;  // m/s and rad/s
 
 class ImuStream final : public SensorStream {
  public:
@@ -39,10 +40,21 @@ class ImuStream final : public SensorStream {
     const InertialIncrement truth = inertialIncrement(*motion_, *earth_, model_.p_body, from, to);
     const Duration interval = durationFromSeconds(to - from);
     const double dt = seconds(interval);
+    const TriadNoise::Ride ride = rideAt(0.5 * (from + to));
     return {.kind = model_.kind,
-            .angular = gyro_.reading(truth.angle / dt, dt, model_.kind),
-            .linear = accelerometer_.reading(truth.velocity / dt, dt, model_.kind),
+            .angular = gyro_.reading(truth.angle / dt, dt, model_.kind, ride),
+            .linear = accelerometer_.reading(truth.velocity / dt, dt, model_.kind, ride),
             .interval = interval};
+  }
+
+  /// Looked at only where it matters: a motion costs more than the errors.
+  TriadNoise::Ride rideAt(double t) const {
+    const bool matters =
+        !model_.errors.gyro.moving_bias.isZero() || !model_.errors.accelerometer.moving_bias.isZero();
+    if (!matters) return TriadNoise::Ride::Standing;
+    const Kinematics body = motion_->at(t);
+    const bool stands = body.v_map.norm() < kStanding && body.omega_body.norm() < kStanding;
+    return stands ? TriadNoise::Ride::Standing : TriadNoise::Ride::Moving;
   }
 
   ImuModel model_;

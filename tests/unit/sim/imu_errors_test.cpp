@@ -110,6 +110,21 @@ TEST(ImuErrors, IncrementsCarryTheSameNoiseAsRatesTimesTheInterval) {
   for (std::size_t i = 0; i < rates.size(); ++i) EXPECT_NEAR(increments[i], rates[i] / 100.0, 1e-17);
 }
 
+TEST(ImuErrors, MovingBiasIsNotThereWhileTheVehicleStands) {
+  constexpr double kBias = 1e-3;
+  const std::shared_ptr<const Motion> motion = makeMotion(
+      SegmentMotionConfig{.segments = {papers::wait(2.0), papers::speedUp(1.0, 0.5), papers::wait(3.0),
+                                       papers::speedUp(1.0, 0.0), papers::wait(2.0)}});
+  const ImuModel model = withGyro({.moving_bias = {kBias, 0.0, 0.0}}, 100.0);
+  const double drift = 0.5 / 6.37e6;  // rad/s, of the level over the round Earth at this speed
+  for (const Delivery& delivery : deliveries(model, motion, 1)) {
+    const double t = seconds(delivery.measurement.stamp - Stamp{});
+    if (std::abs(t - 2.0) < 0.02 || std::abs(t - 7.0) < 0.02) continue;
+    const bool moves = t > 2.0 && t < 7.0;
+    EXPECT_NEAR(sampleOf(delivery).angular.x(), moves ? kBias : 0.0, drift) << t;
+  }
+}
+
 TEST(ImuErrors, BiasInstabilityHasItsSigmaAndItsCorrelationTime) {
   constexpr double kSigma = 3e-4;
   constexpr double kTau = 10.0;

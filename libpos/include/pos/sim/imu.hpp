@@ -13,11 +13,14 @@
 namespace pos::sim {
 
 /// Errors of three like axes, gyros (unit U = rad/s) or accelerometers (U = m/s^2). A reading is
-///   (I + misalignment) (1 + scale) truth + bias + instability + walk + noise, limited, then rounded.
+///   (I + misalignment) (1 + scale) truth + bias (+ moving bias) + instability + walk + noise, limited, then
+/// rounded.
 struct TriadErrors {
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();  ///< U, the same in every run
   double bias_sigma = 0.0;                         ///< U, drawn once a run per axis (repeatability)
-  double noise_density = 0.0;                      ///< U/sqrt(Hz) = U sqrt(s): angle or velocity random walk
+  /// U, added while the vehicle moves: what shaking does to the bias, which standing still does not show
+  Eigen::Vector3d moving_bias = Eigen::Vector3d::Zero();
+  double noise_density = 0.0;       ///< U/sqrt(Hz) = U sqrt(s): angle or velocity random walk
   double instability_sigma = 0.0;   ///< U, standard deviation of a first-order Gauss-Markov bias
   double instability_time = 100.0;  ///< s, its correlation time
   double walk_density = 0.0;  ///< U/sqrt(s): random walk of the bias (rate random walk), from 0 at the start
