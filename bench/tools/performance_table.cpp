@@ -22,7 +22,8 @@ std::string shown(double value) {
 /// The benchmark's name without what its repetition added: "read_ours/iterations:1" is "read_ours".
 std::string plainName(const json& entry) {
   const std::string name = entry.at("run_name");
-  return name.substr(0, std::min(name.find("/iterations:"), name.find("/repeats:")));
+  return name.substr(0,
+                     std::min({name.find("/iterations:"), name.find("/repeats:"), name.find("/real_time")}));
 }
 
 double aggregate(const json& run, const std::string& name, const std::string& benchmark,
@@ -65,15 +66,37 @@ std::string table(const json& run, const Topic& topic) {
 }
 
 Topic particleFilter() {
-  return {.title = "Particle filter",
-          .yardstick = "MRPT",
-          .comparisons =
-              {{"range, per particle and range", "ranges_ours", "ranges_mrpt", "ns_per_particle_range", "ns",
-                10.0},
-               {"scan, per particle and beam", "scan_ours", "scan_mrpt", "ns_per_particle_beam", "ns", 10.0},
-               {"motion, per particle", "predict_ours", "predict_mrpt", "ns_per_particle", "ns", 0.0},
-               {"resampling, per particle", "resample_ours", "resample_mrpt", "ns_per_particle", "ns", 0.0}},
-          .figures = {}};
+  const auto row = [](const char* what, const std::string& hot_path, const char* item, double target) {
+    const std::size_t size = hot_path.find('/');
+    const std::string name = hot_path.substr(0, size);
+    const std::string argument = size == std::string::npos ? "" : hot_path.substr(size);
+    return Comparison{what, name + "_ours" + argument, name + "_mrpt" + argument, item, "ns", target};
+  };
+  const auto portable = [](const char* what, const char* benchmark, const char* item) {
+    return Figure{what, benchmark, item, "ns"};
+  };
+  return {
+      .title = "Particle filter",
+      .yardstick = "MRPT",
+      .comparisons = {row("range, per particle and range", "ranges", "ns_per_particle_range", 60.0),
+                      row("scan, per particle and beam", "scan", "ns_per_particle_beam", 20.0),
+                      row("motion, per particle", "predict", "ns_per_particle", 40.0),
+                      row("resampling, per particle", "resample/20000", "ns_per_particle", 0.0),
+                      row("resampling a million, per particle", "resample/1000000", "ns_per_particle", 15.0),
+                      row("whole step with 4 ranges, per particle", "step_ranges", "ns_per_particle", 25.0),
+                      row("whole step with a scan of 152 beams, per particle", "step_scan", "ns_per_particle",
+                          20.0)},
+      .figures = {portable("range without AVX2 and AVX-512", "ranges_portable", "ns_per_particle_range"),
+                  portable("scan without them", "scan_portable", "ns_per_particle_beam"),
+                  portable("motion without them", "predict_portable", "ns_per_particle")}};
+}
+
+Topic particleThreads() {
+  return {.title = "Particle filter with a million particles, by the clock on the wall",
+          .yardstick = "one thread",
+          .comparisons = {{"two threads: motion, 4 ranges, resampling", "million/2", "million/1", "real_time",
+                           "ms", 1.7}},
+          .figures = {{"memory with its buffers, per particle", "million/1", "bytes_per_particle", "B"}}};
 }
 
 Topic rangeOdometry() {
@@ -186,8 +209,8 @@ Topic legs() {
 }  // namespace
 
 std::vector<Topic> topics() {
-  return {particleFilter(), rangeOdometry(),    dualUwb(), reading(), replay(),   inertial(),
-          sins(),           errorStateFilter(), shearer(), legs(),    tunnelMap()};
+  return {particleFilter(), particleThreads(),  rangeOdometry(), dualUwb(), reading(),  replay(), inertial(),
+          sins(),           errorStateFilter(), shearer(),       legs(),    tunnelMap()};
 }
 
 json parsed(const std::string& text) {

@@ -7,7 +7,6 @@
 #include "pos/estimation/mcl_checks.hpp"
 #include "pos/estimation/odometry_sigma.hpp"
 #include "pos/estimation/scan_points.hpp"
-#include "pos/filters/fast_math.hpp"
 #include "pos/filters/propagation.hpp"
 
 namespace pos::estimation {
@@ -27,7 +26,8 @@ Mcl::Mcl(const MclConfig& config, std::shared_ptr<const map::TunnelMap> map)
       map_(std::move(map)),
       anchors_(*map_, config_.range),
       free_space_(*map_, config_.range.range_max),
-      bins_(config_.particles.bin_position, config_.particles.bin_yaw),
+      bins_(config_.particles.bin_position, config_.particles.bin_yaw,
+            filters::kldBins(config_.particles.max, config_.particles.kld_epsilon, config_.particles.kld_z)),
       stream_(config_.seed, kStream),
       lost_(config_.injection_slow, config_.injection_fast) {
   if (config_.use_scans) scan_weights_.emplace(*map_->grid, config_.scan);
@@ -110,10 +110,10 @@ IngestReport Mcl::take(const OdometryIncrement& odometry, Stamp stamp) {
   const Duration interval =
       odometry.interval.value_or(last_odometry_ ? stamp - *last_odometry_ : Duration{0});
   const double dt = std::max(0.0, seconds(interval));
-  filters::propagate(set_,
+  filters::propagate(set_, headings_,
                      {odometry.increment, incrementSigma(config_.odometry_noise, odometry.increment, dt)},
                      config_.seed, step_++);
-  headings_fresh_ = false;
+  headings_fresh_ = true;
   last_odometry_ = stamp;
   odometer_ += odometry.increment.translation().norm();
   stamp_ = stamp;
@@ -154,7 +154,7 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   }
   const RangeBias bias = anchors_.biasAt(*entry, stamp);
   RangeTerm term = rangeTerm(range, *entry, bias);
-  RangeSums sums = range_weights_.evaluate(set_, headings(set_), term);
+  RangeSums sums = range_weights_.evaluate(set_, headings(), term);
   lost_.noteRange(stamp, sums.evidence);
   const double variance = term.sigma * term.sigma + sums.predicted_variance;
   IngestReport report{.verdict = Verdict::Applied, .dof = 1};
@@ -169,7 +169,7 @@ IngestReport Mcl::take(const BeaconRange& range, Stamp stamp) {
   if (group_ && group_->stamp != stamp) {  // settle the earlier stamp first, then look again
     closeGroup();
     term = rangeTerm(range, *entry, bias);
-    sums = range_weights_.evaluate(set_, headings(set_), term);
+    sums = range_weights_.evaluate(set_, headings(), term);
   }
   openGroup(stamp);
   range_weights_.apply(set_);
@@ -188,7 +188,7 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   if (points.size() == 0) return {.verdict = Verdict::Degenerate, .reason = "no beam came back"};
   if (!started()) startAt(stamp);
   const double power = exponent(scan_odometer_, config_.scan.correlation_length);
-  const double hit = scan_weights_->evaluate(set_, headings(set_), points, power);
+  const double hit = scan_weights_->evaluate(set_, headings(), points, power);
   lost_.noteScan(hit);
   const double p = config_.scan.outlier_probability;
   if (hit < p + kHitShare * (1.0 - p) && !lost_.lost()) {
@@ -196,7 +196,7 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   }
   if (group_ && group_->stamp != stamp) {
     closeGroup();
-    scan_weights_->evaluate(set_, headings(set_), points, power);
+    scan_weights_->evaluate(set_, headings(), points, power);
   }
   openGroup(stamp);
   scan_weights_->apply(set_);
@@ -206,18 +206,10 @@ IngestReport Mcl::take(const Scan2D& scan, Stamp stamp) {
   return {.verdict = Verdict::Applied};
 }
 
-Headings Mcl::headings(const filters::ParticleSet& set) {
-  if (!headings_fresh_ || cosine_.size() != set.size()) {
-    cosine_.resize(set.size());
-    sine_.resize(set.size());
-    for (std::size_t i = 0; i < set.size(); ++i) {
-      const filters::SineCosine heading = filters::fastSineCosine(set.yaw[i]);
-      cosine_[i] = heading.cosine;
-      sine_[i] = heading.sine;
-    }
-    headings_fresh_ = true;
-  }
-  return {cosine_, sine_};
+const filters::HeadingTable& Mcl::headings() {
+  if (!headings_fresh_) fillHeadings(headings_, set_);
+  headings_fresh_ = true;
+  return headings_;
 }
 
 void Mcl::openGroup(Stamp stamp) {
@@ -228,22 +220,26 @@ void Mcl::openGroup(Stamp stamp) {
 void Mcl::closeGroup() {
   lost_.settle();
   if (!group_) return;
-  const double log_evidence = filters::normalise(set_.log_weight);
+  const filters::WeightSums sums = filters::weightSums(set_);
+  const auto size = static_cast<double>(set_.size());
   injected_share_ = std::min(lost_.share(), kMostInjected);
   if (injected_share_ > 0.0) {
-    inject(injected_share_, log_evidence);
-  } else if (filters::EffectiveSizePolicy{config_.resample_below}.wantsResampling(set_.log_weight)) {
+    inject(injected_share_, filters::logEvidence(set_));
+  } else if (sums.effectiveSize() < config_.resample_below * size) {
     resampler_.resample(set_, wantedCount(), stream_);
+    headings_fresh_ = false;
+  } else {
+    filters::normalise(set_);
   }
   if (std::max(std::abs(set_.x[0]), std::abs(set_.y[0])) > kFarFromOrigin) {
     moveOrigin(set_, set_.pose(0).translation());
   }
-  headings_fresh_ = false;
   group_.reset();
 }
 
 std::size_t Mcl::wantedCount() {
-  const std::size_t bins = bins_.count(set_, resampler_.ancestors(set_.log_weight, set_.size(), 0.5));
+  if (config_.particles.min == config_.particles.max) return static_cast<std::size_t>(config_.particles.max);
+  const std::size_t bins = bins_.survivors(set_);
   const double wanted = filters::kldSampleSize(bins, config_.particles.kld_epsilon, config_.particles.kld_z);
   return static_cast<std::size_t>(std::clamp(std::ceil(wanted), static_cast<double>(config_.particles.min),
                                              static_cast<double>(config_.particles.max)));
@@ -257,7 +253,7 @@ std::optional<Estimate> Mcl::estimateAt(Stamp stamp) const {
 
 Diagnostics Mcl::diagnostics() const {
   Diagnostics lines{{"particles", static_cast<double>(set_.size())},
-                    {"effective_size", started() ? filters::effectiveSize(set_.log_weight) : 0.0},
+                    {"effective_size", started() ? filters::effectiveSize(set_) : 0.0},
                     {"injected_share", injected_share_}};
   if (config_.range.bias_sigma > 0.0) {
     for (const auto& [id, entry] : anchors_.entries()) {

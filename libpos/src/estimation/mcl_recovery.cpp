@@ -1,6 +1,7 @@
 /// The particle filter's way back when it is lost: new particles from the readings ("sensor resetting",
 /// Lenser and Veloso 2000) or from anywhere in the free space.
 
+#include <algorithm>
 #include <cmath>
 
 #include "pos/estimation/mcl.hpp"
@@ -9,13 +10,13 @@ namespace pos::estimation {
 namespace {
 
 void append(filters::ParticleSet& set, const filters::ParticleSet& more) {
-  const auto extend = [](std::vector<float>& to, const std::vector<float>& from) {
+  const auto extend = [](FloatArray& to, const FloatArray& from) {
     to.insert(to.end(), from.begin(), from.end());
   };
   extend(set.x, more.x);
   extend(set.y, more.y);
   extend(set.yaw, more.yaw);
-  extend(set.log_weight, more.log_weight);
+  extend(set.weight, more.weight);
 }
 
 }  // namespace
@@ -30,17 +31,16 @@ filters::ParticleSet Mcl::newcomers(std::size_t count) {
 }
 
 void Mcl::weighByGroup(filters::ParticleSet& set) {
-  headings_fresh_ = false;
-  const Headings view = headings(set);
+  filters::HeadingTable headings;
+  fillHeadings(headings, set);
   for (const RangeTerm& term : group_->ranges) {
-    range_weights_.evaluate(set, view, term);
+    range_weights_.evaluate(set, headings, term);
     range_weights_.apply(set);
   }
   for (std::size_t k = 0; k < group_->scans.size(); ++k) {
-    scan_weights_->evaluate(set, view, group_->scans[k], group_->exponents[k]);
+    scan_weights_->evaluate(set, headings, group_->scans[k], group_->exponents[k]);
     scan_weights_->apply(set);
   }
-  headings_fresh_ = false;
 }
 
 void Mcl::inject(double share, double log_evidence) {
@@ -50,11 +50,21 @@ void Mcl::inject(double share, double log_evidence) {
   moveOrigin(added, set_.origin);
   weighByGroup(added);  // the readings that called for them weigh the newcomers too
   resampler_.resample(set_, count - drawn, stream_);
-  // Prior (1 - share) old + share new; the old ones' mean likelihood is the evidence.
-  for (float& lw : set_.log_weight) lw += static_cast<float>(std::log1p(-share));
-  for (float& lw : added.log_weight) lw += static_cast<float>(std::log(share) - log_evidence);
+  // Prior (1 - share) old + share new; the old ones' mean likelihood is the evidence. Whichever of the two is
+  // less likely is scaled down.
+  const double gain = added.log_scale - log_evidence;
+  const auto old_weight = (1.0 - share) / static_cast<double>(set_.size()) * std::exp(-std::max(0.0, gain));
+  const auto new_weight = share / static_cast<double>(drawn) * std::exp(std::min(0.0, gain));
+  const auto weighted = [&](filters::ParticleSet& set, double factor) {
+    for (float& w : set.weight) {
+      w = std::max(filters::kLeastWeight, static_cast<float>(static_cast<double>(count) * factor * w));
+    }
+  };
+  weighted(set_, old_weight);
+  weighted(added, new_weight);
   append(set_, added);
-  filters::normalise(set_.log_weight);
+  filters::normalise(set_);
+  headings_fresh_ = false;
 }
 
 }  // namespace pos::estimation

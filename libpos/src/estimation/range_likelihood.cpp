@@ -1,129 +1,96 @@
 #include "pos/estimation/range_likelihood.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "pos/core/angle.hpp"
-#include "pos/core/wide.hpp"
-#include "pos/filters/fast_math.hpp"
-#include "pos/filters/lanes.hpp"
+#include "pos/filters/parallel.hpp"
+#include "range_kernels.hpp"
 
 namespace pos::estimation {
-namespace {
-
-constexpr std::size_t kBlock = 256;  // sums of a block fit in the first-level cache
-
-}  // namespace
-
 namespace kernel {
 
-/// One range's constants and up to kBlock particles.
-struct Block {
-  float ax, ay, dz2;  // anchor from the set's origin; squared height above the tag, m and m^2
-  float tx, ty;       // tag on the body, m
-  float range, peak, scale;
-  float top, centre;
-  const float* x;
-  const float* y;
-  const float* cosine;
-  const float* sine;
-  const float* log_weight;
-  float* inlier;
-  std::size_t count;
-};
-
-struct Sums {
-  double weight, inlier, distance, distance2;
-};
-
-POS_WIDE Sums rangeSums(const Block& block) {
-  const float* __restrict x = block.x;
-  const float* __restrict y = block.y;
-  const float* __restrict c = block.cosine;
-  const float* __restrict s = block.sine;
-  const float* __restrict lw = block.log_weight;
-  float* __restrict inlier = block.inlier;
-  const auto [ax, ay, dz2, tx, ty, range, peak, scale, top, centre] =
-      std::array{block.ax,    block.ay,   block.dz2,   block.tx,  block.ty,
-                 block.range, block.peak, block.scale, block.top, block.centre};
-  alignas(32) std::array<float, kBlock> w;
-  alignas(32) std::array<float, kBlock> w_inlier;
-  alignas(32) std::array<float, kBlock> w_d;
-  alignas(32) std::array<float, kBlock> w_d2;
-  for (std::size_t i = 0; i < block.count; ++i) {
-    const float dx = ax - x[i] - (c[i] * tx - s[i] * ty);
-    const float dy = ay - y[i] - (s[i] * tx + c[i] * ty);
-    const float d = std::sqrt(dx * dx + dy * dy + dz2);
-    const float nu = range - d;
-    inlier[i] = peak * filters::relativeWeight(scale * nu * nu);
-    w[i] = filters::relativeWeight(lw[i] - top);
-    w_inlier[i] = w[i] * inlier[i];
-    w_d[i] = w[i] * (d - centre);
-    w_d2[i] = w_d[i] * (d - centre);
+const RangeKernels& rangeKernels(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::Avx2:
+      return kAvx2;
+    case InstructionSet::Avx512:
+      return kAvx512;
+    case InstructionSet::Portable:
+      break;
   }
-  return {filters::laneSum({w.data(), block.count}), filters::laneSum({w_inlier.data(), block.count}),
-          filters::laneSum({w_d.data(), block.count}), filters::laneSum({w_d2.data(), block.count})};
-}
-
-POS_WIDE void addLogLikelihood(float* __restrict lw, const float* __restrict inlier, std::size_t count,
-                               float outlier, float exponent) {
-  for (std::size_t i = 0; i < count; ++i) lw[i] += exponent * filters::fastLog(inlier[i] + outlier);
+  return kPortable;
 }
 
 }  // namespace kernel
 
-RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const Headings& headings,
-                                 const RangeTerm& term) {
-  const std::size_t n = set.size();
-  inlier_.resize(n);
-  outlier_ = static_cast<float>(term.outlier_probability / term.range_max);
-  exponent_ = static_cast<float>(term.exponent);
-  const auto peak =
-      static_cast<float>((1.0 - term.outlier_probability) / (std::sqrt(2.0 * kPi) * term.sigma));
-  const auto scale = static_cast<float>(-0.5 / (term.sigma * term.sigma));
+namespace {
+
+constexpr double kSmallMean = 1e-8;  // of the weights: far enough above kLeastWeight for one range more
+constexpr double kLog2e = 1.4426950408889634;
+
+/// The numbers of a range that all particles share.
+kernel::RangeBlock constants(const RangeTerm& term, double peak, double outlier) {
   const Eigen::Vector3f anchor = term.anchor.cast<float>();
   const Eigen::Vector3f tag = term.tag.cast<float>();
-  const float ax = anchor.x();
-  const float ay = anchor.y();
-  const float dz2 = (anchor.z() - tag.z()) * (anchor.z() - tag.z());
-  const float top = filters::laneMax(set.log_weight);
-  const float centre = std::sqrt((ax - set.x[0]) * (ax - set.x[0]) + (ay - set.y[0]) * (ay - set.y[0]) + dz2);
-  double total = 0.0;
-  double good = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-  for (std::size_t begin = 0; begin < n; begin += kBlock) {
-    const kernel::Sums sums = kernel::rangeSums({.ax = ax,
-                                                 .ay = ay,
-                                                 .dz2 = dz2,
-                                                 .tx = tag.x(),
-                                                 .ty = tag.y(),
-                                                 .range = static_cast<float>(term.range),
-                                                 .peak = peak,
-                                                 .scale = scale,
-                                                 .top = top,
-                                                 .centre = centre,
-                                                 .x = set.x.data() + begin,
-                                                 .y = set.y.data() + begin,
-                                                 .cosine = headings.cosine.data() + begin,
-                                                 .sine = headings.sine.data() + begin,
-                                                 .log_weight = set.log_weight.data() + begin,
-                                                 .inlier = inlier_.data() + begin,
-                                                 .count = std::min(kBlock, n - begin)});
-    total += sums.weight;
-    good += sums.inlier;
-    first += sums.distance;
-    second += sums.distance2;
-  }
-  const double mean = first / total;
-  const double evidence = good / total + static_cast<double>(outlier_);
-  return {evidence, good / total / evidence, static_cast<double>(centre) + mean,
-          std::max(0.0, second / total - mean * mean)};
+  const float height = anchor.z() - tag.z();
+  kernel::RangeBlock block{};
+  block.anchor_x = anchor.x();
+  block.anchor_y = anchor.y();
+  block.height2 = height * height;
+  block.tag_x = tag.x();
+  block.tag_y = tag.y();
+  block.range = static_cast<float>(term.range);
+  block.slope = static_cast<float>(-0.5 * kLog2e / (term.sigma * term.sigma));
+  block.inlier = static_cast<float>((peak - outlier) / peak);
+  block.outlier = static_cast<float>(outlier / peak);
+  block.power = static_cast<float>(term.exponent);
+  return block;
 }
 
-void RangeWeights::apply(filters::ParticleSet& set) const {
-  kernel::addLogLikelihood(set.log_weight.data(), inlier_.data(), set.size(), outlier_, exponent_);
+}  // namespace
+
+RangeSums RangeWeights::evaluate(const filters::ParticleSet& set, const filters::HeadingTable& headings,
+                                 const RangeTerm& term) {
+  const double outlier = term.outlier_probability / term.range_max;
+  const double peak = (1.0 - term.outlier_probability) / (std::sqrt(2.0 * kPi) * term.sigma) + outlier;
+  posterior_.resize(set.size());
+  log_peak_ = term.exponent * std::log(peak);
+  kernel::RangeBlock whole = constants(term, peak, outlier);
+  whole.centre = std::sqrt((whole.anchor_x - set.x[0]) * (whole.anchor_x - set.x[0]) +
+                           (whole.anchor_y - set.y[0]) * (whole.anchor_y - set.y[0]) + whole.height2);
+  const kernel::RangeKernels& kernels = kernel::rangeKernels(with_);
+  const auto loop = term.exponent == 1.0 ? kernels.whole : kernels.power;
+  std::vector<kernel::RangeBlockSums> parts(filters::blockCount(set.size()));
+  forBlocks(set.size(), filters::Cost::Low, [&](const filters::Block& b) {
+    kernel::RangeBlock block = whole;
+    block.x = set.x.data() + b.first;
+    block.y = set.y.data() + b.first;
+    block.cosine = headings.cosine.data() + b.first;
+    block.sine = headings.sine.data() + b.first;
+    block.weight = set.weight.data() + b.first;
+    block.posterior = posterior_.data() + b.first;
+    block.count = b.count;
+    parts[b.index] = loop(block);
+  });
+  kernel::RangeBlockSums sums{};
+  for (const kernel::RangeBlockSums& part : parts) {
+    sums.weight += part.weight;
+    sums.likelihood += part.likelihood;
+    sums.distance += part.distance;
+    sums.distance2 += part.distance2;
+  }
+  mean_weight_ = sums.weight / static_cast<double>(set.size());
+  const double mean = sums.distance / sums.weight;
+  const double evidence = peak * sums.likelihood / sums.weight;
+  return {evidence, std::max(0.0, (evidence - outlier) / evidence), static_cast<double>(whole.centre) + mean,
+          std::max(0.0, sums.distance2 / sums.weight - mean * mean)};
+}
+
+void RangeWeights::apply(filters::ParticleSet& set) {
+  std::swap(set.weight, posterior_);
+  set.log_scale += log_peak_;
+  if (mean_weight_ < kSmallMean) rescale(set, with_);
 }
 
 }  // namespace pos::estimation

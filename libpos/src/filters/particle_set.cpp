@@ -1,54 +1,38 @@
 #include "pos/filters/particle_set.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
+#include "particle_kernels.hpp"
 #include "pos/core/error.hpp"
-#include "pos/core/wide.hpp"
-#include "pos/filters/fast_math.hpp"
-#include "pos/filters/lanes.hpp"
+#include "pos/filters/parallel.hpp"
 
 namespace pos::filters {
 namespace {
 
-constexpr std::size_t kBlock = 256;
-
-}  // namespace
-
-namespace kernel {
-
-/// Sums of w and w^2 with w = exp(log weight - top).
-struct WeightSums {
-  double first = 0.0;
-  double second = 0.0;
-};
-
-POS_WIDE WeightSums weightSums(std::span<const float> log_weight, float top) {
-  WeightSums sums;
-  std::array<float, kBlock> w;
-  std::array<float, kBlock> w2;
-  for (std::size_t first = 0; first < log_weight.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, log_weight.size() - first);
-    const float* lw = log_weight.data() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-      w[i] = relativeWeight(lw[i] - top);
-      w2[i] = w[i] * w[i];
-    }
-    sums.first += laneSum({w.data(), count});
-    sums.second += laneSum({w2.data(), count});
-  }
+/// What `partial` gives for every block, for the caller to add up in order.
+template <class Partial>
+auto perBlock(std::size_t particles, const Partial& partial) {
+  std::vector<decltype(partial(Block{}))> sums(blockCount(particles));
+  forBlocks(particles, Cost::Low, [&](const Block& block) { sums[block.index] = partial(block); });
   return sums;
 }
 
-}  // namespace kernel
+kernel::CloudView view(const ParticleSet& set, const Block& block, const Eigen::Vector2f& centre, float yaw) {
+  return {.x = set.x.data() + block.first,
+          .y = set.y.data() + block.first,
+          .yaw = set.yaw.data() + block.first,
+          .weight = set.weight.data() + block.first,
+          .count = block.count,
+          .x0 = centre.x(),
+          .y0 = centre.y(),
+          .yaw0 = yaw};
+}
+
+}  // namespace
 
 void ParticleSet::resize(std::size_t count) {
-  x.resize(count);
-  y.resize(count);
-  yaw.resize(count);
-  log_weight.resize(count);
+  for (FloatArray* array : {&x, &y, &yaw, &weight}) array->resize(count);
 }
 
 Pose2 ParticleSet::pose(std::size_t i) const {
@@ -62,6 +46,15 @@ void ParticleSet::place(std::size_t i, const Pose2& pose_map) {
   yaw[i] = static_cast<float>(wrapAngle(pose_map.yaw));
 }
 
+void fillHeadings(HeadingTable& table, const ParticleSet& set, InstructionSet with) {
+  table.cosine.resize(set.size());
+  table.sine.resize(set.size());
+  const auto headings = kernel::particleKernels(with).headings;
+  forBlocks(set.size(), Cost::Low, [&](const Block& b) {
+    headings(set.yaw.data() + b.first, table.cosine.data() + b.first, table.sine.data() + b.first, b.count);
+  });
+}
+
 void moveOrigin(ParticleSet& set, const Eigen::Vector2d& origin) {
   const Eigen::Vector2f shift = (set.origin - origin).cast<float>();
   for (float& x : set.x) x += shift.x();
@@ -70,59 +63,93 @@ void moveOrigin(ParticleSet& set, const Eigen::Vector2d& origin) {
 }
 
 void levelWeights(ParticleSet& set) {
-  std::fill(set.log_weight.begin(), set.log_weight.end(), -std::log(static_cast<float>(set.size())));
+  std::fill(set.weight.begin(), set.weight.end(), 1.0F);
+  set.log_scale = 0.0;
 }
 
-double logSumExp(std::span<const float> log_weight) {
-  const float top = laneMax(log_weight);
-  if (!std::isfinite(top)) return static_cast<double>(top);
-  return static_cast<double>(top) + std::log(kernel::weightSums(log_weight, top).first);
-}
-
-double normalise(std::span<float> log_weight) {
-  const double total = logSumExp(log_weight);
-  ensure(std::isfinite(total), "particle weights have no finite sum");
-  const auto shift = static_cast<float>(total);
-  for (float& lw : log_weight) lw -= shift;
-  return total;
-}
-
-double effectiveSize(std::span<const float> log_weight) {
-  const kernel::WeightSums sums = kernel::weightSums(log_weight, laneMax(log_weight));
-  return sums.first * sums.first / sums.second;
-}
-
-Moments moments(const ParticleSet& set) {
-  const std::size_t n = set.size();
-  ensure(n > 0, "no particles to average");
-  const float top = laneMax(set.log_weight);
-  // Raw moments about particle 0, which lies inside the cloud: no digits are lost to a far origin.
-  const float x0 = set.x[0];
-  const float y0 = set.y[0];
-  double total = 0.0;
-  double cosine = 0.0;
-  double sine = 0.0;
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double w = relativeWeight(set.log_weight[i] - top);
-    const SineCosine direction = fastSineCosine(set.yaw[i]);
-    total += w;
-    cosine += w * static_cast<double>(direction.cosine);
-    sine += w * static_cast<double>(direction.sine);
-    mean += w * Eigen::Vector2d(set.x[i] - x0, set.y[i] - y0);
+WeightSums weightSums(const ParticleSet& set, InstructionSet with) {
+  const auto partial = kernel::particleKernels(with).weightSums;
+  WeightSums sums;
+  for (const kernel::WeightSums& part :
+       perBlock(set.size(), [&](const Block& b) { return partial(set.weight.data() + b.first, b.count); })) {
+    sums.first += part.first;
+    sums.second += part.second;
   }
-  mean /= total;
-  const double yaw = std::atan2(sine, cosine);
-  const auto mean_yaw = static_cast<float>(yaw);
-  Matrix<3, 3> spread = Matrix<3, 3>::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double w = relativeWeight(set.log_weight[i] - top);
-    const Vector<3> d(static_cast<double>(set.x[i] - x0) - mean.x(),
-                      static_cast<double>(set.y[i] - y0) - mean.y(), fastWrap(set.yaw[i] - mean_yaw));
-    spread.noalias() += (w * d) * d.transpose();
+  return sums;
+}
+
+double logEvidence(const ParticleSet& set) {
+  return std::log(weightSums(set).first / static_cast<double>(set.size())) + set.log_scale;
+}
+
+double normalise(ParticleSet& set, InstructionSet with) {
+  const double mean = weightSums(set, with).first / static_cast<double>(set.size());
+  ensure(std::isfinite(mean) && mean > 0.0, "particle weights have no finite sum");
+  const auto scale = kernel::particleKernels(with).scale;
+  const auto factor = static_cast<float>(1.0 / mean);
+  forBlocks(set.size(), Cost::Low,
+            [&](const Block& b) { scale(set.weight.data() + b.first, b.count, factor); });
+  const double evidence = std::log(mean) + set.log_scale;
+  set.log_scale = 0.0;
+  return evidence;
+}
+
+Weighed weigh(const ParticleSet& set, FloatArray& log_likelihood, double exponent,
+              InstructionSet with) {
+  const kernel::ParticleKernels& kernels = kernel::particleKernels(with);
+  const auto tops = perBlock(
+      set.size(), [&](const Block& b) { return kernels.largest(log_likelihood.data() + b.first, b.count); });
+  const float top = *std::max_element(tops.begin(), tops.end());
+  const auto slope = static_cast<float>(exponent / std::log(2.0));
+  kernel::WeightSums sums{};
+  for (const kernel::WeightSums& part : perBlock(set.size(), [&](const Block& b) {
+         return kernels.weigh({.weight = set.weight.data() + b.first,
+                               .value = log_likelihood.data() + b.first,
+                               .count = b.count,
+                               .top = top,
+                               .slope = slope});
+       })) {
+    sums.first += part.first;
+    sums.second += part.second;
   }
+  const double log_scale = exponent * static_cast<double>(top);
+  return {std::log(sums.second / sums.first) + log_scale, log_scale};
+}
+
+Moments moments(const ParticleSet& set, InstructionSet with) {
+  ensure(set.size() > 0, "no particles to average");
+  const kernel::ParticleKernels& kernels = kernel::particleKernels(with);
+  // Sums count from particle 0, which lies inside the cloud: no digits are lost to a far origin.
+  const Eigen::Vector2f start(set.x[0], set.y[0]);
+  kernel::DirectionSums sums{};
+  for (const kernel::DirectionSums& part :
+       perBlock(set.size(), [&](const Block& b) { return kernels.directions(view(set, b, start, 0.0F)); })) {
+    sums.weight += part.weight;
+    sums.x += part.x;
+    sums.y += part.y;
+    sums.cosine += part.cosine;
+    sums.sine += part.sine;
+  }
+  const Eigen::Vector2d offset = Eigen::Vector2d(sums.x, sums.y) / sums.weight;
+  const double yaw = std::atan2(sums.sine, sums.cosine);
+  const Eigen::Vector2f centre = (start.cast<double>() + offset).cast<float>();
+  kernel::SpreadSums spread{};
+  for (const kernel::SpreadSums& part : perBlock(set.size(), [&](const Block& b) {
+         return kernels.spread(view(set, b, centre, static_cast<float>(yaw)));
+       })) {
+    spread.xx += part.xx;
+    spread.xy += part.xy;
+    spread.yy += part.yy;
+    spread.xa += part.xa;
+    spread.ya += part.ya;
+    spread.aa += part.aa;
+  }
+  Matrix<3, 3> covariance;
+  covariance << spread.xx, spread.xy, spread.xa,  //
+      spread.xy, spread.yy, spread.ya,            //
+      spread.xa, spread.ya, spread.aa;
   const Pose2 first = set.pose(0);
-  return {{first.x + mean.x(), first.y + mean.y(), yaw}, spread / total};
+  return {{first.x + offset.x(), first.y + offset.y(), yaw}, covariance / sums.weight};
 }
 
 }  // namespace pos::filters

@@ -1,53 +1,84 @@
 #include "pos/filters/resampling.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "pos/core/error.hpp"
-#include "pos/filters/fast_math.hpp"
-#include "pos/filters/lanes.hpp"
+#include "pos/filters/comb.hpp"
+#include "pos/filters/parallel.hpp"
 
 namespace pos::filters {
 namespace {
 
-void gather(std::vector<float>& to, const std::vector<float>& from, std::span<const std::uint32_t> index) {
-  for (std::size_t k = 0; k < index.size(); ++k) to[k] = from[index[k]];
+#if defined(__GNUC__)
+using Four = float __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// The same number four times, in one store.
+void putFour(float* to, float value) {
+  *reinterpret_cast<Four*>(to) = value - Four{};
+}
+#else
+void putFour(float* to, float value) {
+  for (int i = 0; i < 4; ++i) to[i] = value;
+}
+#endif
+
+/// Parents and children as bare arrays: x, y, yaw.
+struct Arrays {
+  const float* from[3];
+  float* to[3];
+
+  /// Every parent writes four children, wanted or not, and the next one overwrites what was too many: no
+  /// branch to guess wrong unless it has more than four, or the end of its block's children, `end`, is near.
+  void copy(std::size_t parent, std::size_t first, std::size_t next, std::size_t end) const {
+    if (first + 4 <= end) [[likely]] {
+      for (int a = 0; a < 3; ++a) putFour(to[a] + first, from[a][parent]);
+      first += 4;
+    }
+    for (; first < next; ++first) {
+      for (int a = 0; a < 3; ++a) to[a][first] = from[a][parent];
+    }
+  }
+};
+
+std::uint64_t sumOfShares(const Comb& comb, const float* weight, std::size_t count) {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < count; ++i) sum += comb.share(weight[i]);
+  return sum;
+}
+
+void copyBlock(const Comb& comb, const Arrays& arrays, const float* weight, const Block& block,
+               std::uint64_t cumulative, std::uint64_t cumulative_end) {
+  const std::size_t end = comb.children(cumulative_end);
+  std::size_t child = comb.children(cumulative);
+  for (std::size_t i = block.first; i < block.first + block.count; ++i) {
+    cumulative += comb.share(weight[i]);
+    const std::size_t next = comb.children(cumulative);
+    arrays.copy(i, child, next, end);
+    child = next;
+  }
 }
 
 }  // namespace
 
-std::span<const std::uint32_t> SystematicResampler::ancestors(std::span<const float> log_weight,
-                                                              std::size_t count, double offset) {
-  const std::size_t n = log_weight.size();
+void SystematicResampler::resample(ParticleSet& set, std::size_t count, double offset) {
+  const std::size_t n = set.size();
   ensure(n > 0 && count > 0, "resampling needs particles");
-  ancestors_.resize(count);
-  weight_.resize(n);
-  const float top = laneMax(log_weight);
-  double total = 0.0;
-  for (std::size_t i = 0; i < n; ++i) weight_[i] = relativeWeight(log_weight[i] - top);
-  for (std::size_t i = 0; i < n; ++i) total += static_cast<double>(weight_[i]);
-  // Parent i owns the teeth k with cumulative before <= k + offset < cumulative after, in units of a tooth.
-  const double teeth = static_cast<double>(count) / total;
-  double cumulative = 0.0;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    cumulative += static_cast<double>(weight_[i]);
-    const double end = cumulative * teeth - offset;
-    while (k < count && static_cast<double>(k) < end) ancestors_[k++] = static_cast<std::uint32_t>(i);
-  }
-  // Rounding may leave the last tooth just beyond the end.
-  const std::uint32_t last = k > 0 ? ancestors_[k - 1] : static_cast<std::uint32_t>(n - 1);
-  for (; k < count; ++k) ancestors_[k] = last;
-  return ancestors_;
-}
-
-void SystematicResampler::resample(ParticleSet& set, std::size_t count, RandomStream& stream) {
-  const std::span<const std::uint32_t> parents = ancestors(set.log_weight, count, stream.uniform());
+  const Comb comb(weightSums(set).first, count, offset);
   children_.resize(count);
   children_.origin = set.origin;
-  gather(children_.x, set.x, parents);
-  gather(children_.y, set.y, parents);
-  gather(children_.yaw, set.yaw, parents);
+  const Arrays arrays{{set.x.data(), set.y.data(), set.yaw.data()},
+                      {children_.x.data(), children_.y.data(), children_.yaw.data()}};
+  const float* weight = set.weight.data();
+  block_start_.assign(blockCount(n) + 1, 0);
+  forBlocks(n, Cost::Low, [&](const Block& block) {
+    block_start_[block.index + 1] = sumOfShares(comb, weight + block.first, block.count);
+  });
+  for (std::size_t b = 1; b < block_start_.size(); ++b) block_start_[b] += block_start_[b - 1];
+  forBlocks(n, Cost::Low, [&](const Block& block) {
+    copyBlock(comb, arrays, weight, block, block_start_[block.index], block_start_[block.index + 1]);
+  });
+  // Rounding may leave the last tooth just beyond the end.
+  for (std::size_t k = comb.children(block_start_.back()); k < count; ++k) {
+    for (int a = 0; a < 3; ++a) arrays.to[a][k] = k > 0 ? arrays.to[a][k - 1] : arrays.from[a][n - 1];
+  }
   levelWeights(children_);
   std::swap(set, children_);
 }

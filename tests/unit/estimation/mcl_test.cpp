@@ -169,20 +169,32 @@ TEST(Mcl, StaysOnCourseWhenOneAnchorIsMetresShort) {
 }
 
 TEST(Mcl, TracksAConstantOffsetOfOneAnchor) {
-  Sim sim(6);
-  MclConfig config = rangeConfig();
-  config.range.bias_sigma = 0.5;
-  config.range.bias_time = 200.0;
-  Mcl mcl(config, sim.map);
-  for (int k = 0; k < 60; ++k) {
-    feed(mcl, sim.move());
-    for (std::size_t a = 0; a < 4; ++a) feed(mcl, sim.range(a, sim.random.normal(a == 1 ? 0.5 : 0.0, 0.15)));
+  constexpr int kRuns = 20;
+  double offset = 0.0;
+  double none = 0.0;
+  for (std::uint64_t run = 1; run <= kRuns; ++run) {
+    Sim sim(run);
+    MclConfig config = rangeConfig();
+    config.range.bias_sigma = 0.5;
+    config.range.bias_time = 200.0;
+    config.seed = run;
+    Mcl mcl(config, sim.map);
+    for (int k = 0; k < 60; ++k) {
+      feed(mcl, sim.move());
+      for (std::size_t a = 0; a < 4; ++a) {
+        feed(mcl, sim.range(a, sim.random.normal(a == 1 ? 0.5 : 0.0, 0.15)));
+      }
+    }
+    const Diagnostics lines = mcl.diagnostics();
+    ASSERT_EQ(lines.size(), 7U);
+    EXPECT_EQ(lines[4].name, "range_offset_m[2]");
+    offset += lines[4].value / kRuns;
+    none += lines[3].value / kRuns;
   }
-  const Diagnostics lines = mcl.diagnostics();
-  ASSERT_EQ(lines.size(), 7U);
-  EXPECT_EQ(lines[4].name, "range_offset_m[2]");
-  EXPECT_NEAR(lines[4].value, 0.5, 0.25);
-  EXPECT_NEAR(lines[3].value, 0.0, 0.25);
+  // Not the whole 0.5 m, since the offset's correlation with the pose is not kept (docs/math/mcl.md): 0.32 m
+  // on average over 200 drives, 0.10 m from drive to drive.
+  EXPECT_NEAR(offset, 0.32, 4.0 * 0.10 / std::sqrt(kRuns));
+  EXPECT_NEAR(none, 0.0, 0.25);
 }
 
 }  // namespace pos::estimation

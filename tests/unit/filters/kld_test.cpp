@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <vector>
 
 #include "pos/core/chi_square.hpp"
 #include "pos/filters/recovery.hpp"
@@ -22,20 +22,41 @@ TEST(Kld, NeedsOneParticleForOneBin) {
   EXPECT_EQ(kldSampleSize(1, 0.02, 2.33), 1.0);
 }
 
-TEST(BinCounter, CountsOccupiedBinsOnce) {
+TEST(Kld, SmallestSufficientNumberOfBinsIsFound) {
+  for (const double samples : {500.0, 20000.0, 1e6}) {
+    const std::size_t bins = kldBins(samples, 0.02, 2.33);
+    EXPECT_GE(kldSampleSize(bins, 0.02, 2.33), samples);
+    EXPECT_LT(kldSampleSize(bins - 1, 0.02, 2.33), samples);
+  }
+}
+
+class Bins : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<Pose2> poses{{0.1, 0.1, 0.05},  {0.4, 0.2, 0.09},  // one bin
+                                   {-0.1, 0.1, 0.05},                    // the next one across zero
+                                   {0.1, 0.6, 0.05},  {0.1, 0.1, 0.15},  // another y, another yaw
+                                   {7.0, 7.0, -3.0}};
+    set.resize(poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) set.place(i, poses[i]);
+    levelWeights(set);
+  }
   ParticleSet set;
-  set.resize(6);
-  const std::vector<Pose2> poses{{0.1, 0.1, 0.05},  {0.4, 0.2, 0.09},  // one bin
-                                 {-0.1, 0.1, 0.05},                    // the next one across zero
-                                 {0.1, 0.6, 0.05},  {0.1, 0.1, 0.15},  // another y, another yaw
-                                 {7.0, 7.0, -3.0}};
-  for (std::size_t i = 0; i < poses.size(); ++i) set.place(i, poses[i]);
-  BinCounter bins(0.5, 0.1);
-  std::vector<std::uint32_t> all(6);
-  std::iota(all.begin(), all.end(), 0U);
-  EXPECT_EQ(bins.count(set, all), 5U);
-  EXPECT_EQ(bins.count(set, std::vector<std::uint32_t>{0, 0, 0, 1}), 1U);
-  EXPECT_EQ(bins.count(set, std::vector<std::uint32_t>{5, 2, 5}), 2U);
+};
+
+TEST_F(Bins, OccupiedOnesCountOnce) {
+  EXPECT_EQ(BinCounter(0.5, 0.1, 100).survivors(set), 5U);
+}
+
+TEST_F(Bins, ThoseOfParticlesWithoutChildrenDoNotCount) {
+  set.weight = {1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F};
+  EXPECT_EQ(BinCounter(0.5, 0.1, 100).survivors(set), 2U);
+}
+
+TEST_F(Bins, CountingStopsAtTheLimitAndStartsAfresh) {
+  BinCounter bins(0.5, 0.1, 3);
+  EXPECT_EQ(bins.survivors(set), 3U);
+  EXPECT_EQ(bins.survivors(set), 3U);
 }
 
 TEST(LikelihoodAverages, StepDownInLikelihoodAsksForNewParticles) {

@@ -74,7 +74,7 @@ class Mcl : public Estimator {
   filters::ParticleSet particlesOnRing(const RangeTerm& term, std::size_t count);
   RandomStream& fresh();
 
-  Headings headings(const filters::ParticleSet& set);
+  const filters::HeadingTable& headings();
   void openGroup(Stamp stamp);
   void closeGroup();
   std::size_t wantedCount();
@@ -99,8 +99,7 @@ class Mcl : public Estimator {
   double odometer_ = 0.0;                // m driven
   std::optional<double> scan_odometer_;  // where the last scan was applied
   std::optional<Group> group_;
-  std::vector<float> cosine_;
-  std::vector<float> sine_;
+  filters::HeadingTable headings_;
   bool headings_fresh_ = false;
 
   LostDetector lost_;

@@ -3,7 +3,6 @@
 /// those that say nothing, long or short.
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
 #include "pos/filters/particle_set.hpp"
@@ -22,12 +21,6 @@ struct RangeTerm {
   double exponent = 1.0;  ///< share of independent information: the likelihood is raised to this power
 };
 
-/// Cosine and sine of every particle's heading.
-struct Headings {
-  std::span<const float> cosine;
-  std::span<const float> sine;
-};
-
 /// What the cloud as a whole says of the range.
 struct RangeSums {
   double evidence = 0.0;            ///< 1/m: weighted mean of the likelihood
@@ -36,17 +29,22 @@ struct RangeSums {
   double predicted_variance = 0.0;  ///< m^2
 };
 
-/// Owns the buffers of the loop. Look first (`evaluate`), then `apply` or leave it.
+/// Owns the buffer of the loop, 4 bytes a particle. One pass over the particles computes the sums and what
+/// the weights would become: look first (`evaluate`), then `apply` or leave it.
 class RangeWeights {
  public:
-  RangeSums evaluate(const filters::ParticleSet& set, const Headings& headings, const RangeTerm& term);
-  /// Add the last evaluated log likelihood to the log weights of the same, unchanged set.
-  void apply(filters::ParticleSet& set) const;
+  explicit RangeWeights(InstructionSet with = bestInstructionSet()) : with_(with) {}
+
+  RangeSums evaluate(const filters::ParticleSet& set, const filters::HeadingTable& headings,
+                     const RangeTerm& term);
+  /// Give the same, unchanged set the weights of the last evaluation. Once only.
+  void apply(filters::ParticleSet& set);
 
  private:
-  std::vector<float> inlier_;  // (1 - p) N(...), 1/m
-  float outlier_ = 0.0F;       // p / R, 1/m
-  float exponent_ = 1.0F;
+  InstructionSet with_;
+  FloatArray posterior_;
+  double mean_weight_ = 1.0;  // before the range
+  double log_peak_ = 0.0;     // ln of what the weights were divided by, 1/m, times the exponent
 };
 
 }  // namespace pos::estimation

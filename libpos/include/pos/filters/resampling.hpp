@@ -2,7 +2,6 @@
 /// Systematic resampling, and when to do it.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "pos/core/random.hpp"
@@ -14,27 +13,27 @@ namespace pos::filters {
 /// 0 = never, 1 = whenever the weights differ at all.
 struct EffectiveSizePolicy {
   double below = 0.5;
-  bool wantsResampling(std::span<const float> log_weight) const {
-    return effectiveSize(log_weight) < below * static_cast<double>(log_weight.size());
+  bool wantsResampling(const ParticleSet& set) const {
+    return effectiveSize(set) < below * static_cast<double>(set.size());
   }
 };
 
-/// Draws the next generation. Owns the buffers, so that a filter in steady state allocates nothing.
+/// Draws the next generation. Owns the buffer, 16 bytes a particle, so that a filter in steady state
+/// allocates nothing.
 class SystematicResampler {
  public:
-  /// Index of the parent of each of `count` children. One uniform offset u in (0, 1) places a comb of `count`
-  /// equal teeth over the cumulative weights (Kitagawa 1996): parent i gets floor or ceil of count * w_i
-  /// children, count * w_i on average. Weights need not be normalised. Valid until the next call.
-  std::span<const std::uint32_t> ancestors(std::span<const float> log_weight, std::size_t count,
-                                           double offset);
-
-  /// Replace the set by `count` equally weighted children. Deterministic for a given stream position.
-  void resample(ParticleSet& set, std::size_t count, RandomStream& stream);
+  /// Replace the set by `count` level children. One uniform offset u in (0, 1) places a comb of `count` equal
+  /// teeth over the cumulative weights (Kitagawa 1996): parent i gets floor or ceil of count * w_i children,
+  /// count * w_i on average. Weights need not be normalised. Children of one parent stand side by side.
+  void resample(ParticleSet& set, std::size_t count, double offset);
+  /// The same with the stream's next number. Deterministic for a given stream position.
+  void resample(ParticleSet& set, std::size_t count, RandomStream& stream) {
+    resample(set, count, stream.uniform());
+  }
 
  private:
-  std::vector<float> weight_;
-  std::vector<std::uint32_t> ancestors_;
   ParticleSet children_;
+  std::vector<std::uint64_t> block_start_;  // cumulative weight before each block, in parts of a tooth
 };
 
 }  // namespace pos::filters

@@ -1,0 +1,40 @@
+/// The particle filter with a million particles: one thread beside two, by the clock on the wall, and its
+/// memory. A step is a motion, four ranges with the sums that a gate needs, and resampling.
+#include <tbb/task_arena.h>
+
+#include "mcl_scene.hpp"
+
+namespace pos::bench {
+namespace {
+
+void step(Cloud& cloud, estimation::RangeWeights& weights, filters::SystematicResampler& resampler,
+          std::uint64_t number) {
+  const std::size_t count = cloud.set.size();
+  propagate(cloud.set, cloud.headings, kMotion, 1, number);
+  for (const Eigen::Vector3d& anchor : kAnchors) {
+    const Eigen::Vector3d p(anchor.x() - cloud.set.origin.x(), anchor.y() - cloud.set.origin.y(), anchor.z());
+    const estimation::RangeTerm term{.anchor = p, .tag = kTag, .range = rangeTo(anchor)};
+    benchmark::DoNotOptimize(weights.evaluate(cloud.set, cloud.headings, term));
+    weights.apply(cloud.set);
+  }
+  resampler.resample(cloud.set, count, 0.3);
+}
+
+void million(benchmark::State& state) {
+  tbb::task_arena arena(static_cast<int>(state.range(0)));
+  arena.execute([&] {
+    const MemoryGrowth growth;
+    Cloud cloud(kMillion);
+    estimation::RangeWeights weights;
+    filters::SystematicResampler resampler;
+    std::uint64_t number = 0;
+    for (auto _ : state) step(cloud, weights, resampler, number++);
+    state.counters["bytes_per_particle"] = 1024.0 * growth.kb() / static_cast<double>(kMillion);
+  });
+}
+BENCHMARK(million)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace pos::bench
+
+BENCHMARK_MAIN();

@@ -1,0 +1,7 @@
+#include "range_kernels_source.hpp"
+
+namespace pos::estimation::kernel {
+
+const RangeKernels kPortable{evaluated<Exponent::One>, evaluated<Exponent::Given>};
+
+}  // namespace pos::estimation::kernel

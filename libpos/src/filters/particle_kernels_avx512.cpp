@@ -1,0 +1,7 @@
+#include "particle_kernels_source.hpp"
+
+namespace pos::filters::kernel {
+
+const ParticleKernels kAvx512{move, headings, weightSums, scale, largest, weigh, directions, spread};
+
+}  // namespace pos::filters::kernel
