@@ -1,5 +1,7 @@
 #include "pos/filters/resampling.hpp"
 
+#include <cstring>
+
 #include "pos/core/error.hpp"
 #include "pos/filters/comb.hpp"
 #include "pos/filters/parallel.hpp"
@@ -7,18 +9,11 @@
 namespace pos::filters {
 namespace {
 
-#if defined(__GNUC__)
-using Four = float __attribute__((vector_size(16), aligned(4), may_alias));
-
 /// The same number four times, in one store.
 void putFour(float* to, float value) {
-  *reinterpret_cast<Four*>(to) = value - Four{};
+  const float four[4] = {value, value, value, value};
+  std::memcpy(to, four, sizeof(four));
 }
-#else
-void putFour(float* to, float value) {
-  for (int i = 0; i < 4; ++i) to[i] = value;
-}
-#endif
 
 /// Parents and children as bare arrays: x, y, yaw.
 struct Arrays {

@@ -42,13 +42,14 @@ using Floats = float __attribute__((vector_size(4 * kWidth)));
 using Ints = std::int32_t __attribute__((vector_size(4 * kWidth)));
 using Words = std::uint32_t __attribute__((vector_size(4 * kWidth)));
 using LongWords = std::uint64_t __attribute__((vector_size(4 * kWidth)));
-using FloatsAnywhere = float __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
 
 POS_LANE_FUNCTION Floats load(const float* from) {
-  return *reinterpret_cast<const FloatsAnywhere*>(from);
+  Floats values;  // a copy of bytes: clang takes a vector type for aligned, whatever its attributes say
+  __builtin_memcpy(&values, from, sizeof(values));
+  return values;
 }
 POS_LANE_FUNCTION void store(float* to, Floats values) {
-  *reinterpret_cast<FloatsAnywhere*>(to) = values;
+  __builtin_memcpy(to, &values, sizeof(values));
 }
 POS_LANE_FUNCTION Floats all(float value) {
   return value - Floats{};
