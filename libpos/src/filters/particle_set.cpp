@@ -94,8 +94,7 @@ double normalise(ParticleSet& set, InstructionSet with) {
   return evidence;
 }
 
-Weighed weigh(const ParticleSet& set, FloatArray& log_likelihood, double exponent,
-              InstructionSet with) {
+Weighed weigh(const ParticleSet& set, FloatArray& log_likelihood, double exponent, InstructionSet with) {
   const kernel::ParticleKernels& kernels = kernel::particleKernels(with);
   const auto tops = perBlock(
       set.size(), [&](const Block& b) { return kernels.largest(log_likelihood.data() + b.first, b.count); });

@@ -25,7 +25,8 @@
 #endif
 #define POS_LANE_FUNCTION [[gnu::always_inline]] inline
 
-namespace pos::lanes::inline POS_LANES {
+namespace pos::lanes {
+inline namespace POS_LANES {
 
 #if defined(__AVX512F__)
 inline constexpr std::size_t kWidth = 16;
@@ -149,4 +150,5 @@ struct Sum {
   }
 };
 
-}  // namespace pos::lanes::inline POS_LANES
+}  // namespace POS_LANES
+}  // namespace pos::lanes

@@ -4,7 +4,8 @@
 
 #include "pos/core/lanes.hpp"
 
-namespace pos::lanes::inline POS_LANES {
+namespace pos::lanes {
+inline namespace POS_LANES {
 
 /// 1.5 * 2^23: adding and subtracting it rounds to a whole number, and the sum's lowest bits are that number.
 inline constexpr float kRounder = 12582912.0F;
@@ -139,4 +140,5 @@ POS_LANE_FUNCTION NormalPair normalPair(Words a, Words b) {
   return {radius * way.cosine, radius * way.sine};
 }
 
-}  // namespace pos::lanes::inline POS_LANES
+}  // namespace POS_LANES
+}  // namespace pos::lanes
