@@ -43,6 +43,7 @@ constexpr std::array<Layouts, 15> kLayouts{{
 constexpr std::size_t kLargest = std::size_t{1} << 28U;  // bytes in one object
 constexpr int kDeepest = 8;                              // objects inside objects
 constexpr std::uint32_t kMostParticles = 100'000;
+constexpr std::uint32_t kMostParts = 100'000;  // MRPT builds them all before it reads the first
 constexpr std::uint8_t kEndFlag = 0x88;
 
 struct Unknown {};
@@ -144,7 +145,7 @@ void Walk::object() {
 
 void Walk::group(std::string_view words) {
   const auto count = value<std::uint32_t>();
-  if (count > kLargest) throw Damage{"an object claims an absurd number of parts"};
+  if (count > kMostParts) throw Damage{"an object claims an absurd number of parts"};
   for (std::uint32_t i = 0; i < count; ++i) layout(words);
 }
 

@@ -128,17 +128,32 @@ TEST(RawlogDamage, FlippedBytesInAGzipAreReported) {
   EXPECT_GT(log.measurements.size(), 1000U);
 }
 
-TEST(RawlogDamage, ACountOfFourBillionRangesIsRefusedAtOnce) {
-  const ScratchFolder folder;
+/// Two ranges; the second object claims to hold `count` of them, and `first` stands where its first one
+/// begins.
+std::string withACountOf(const std::string& count, const std::string& first, const ScratchFolder& folder) {
   std::string bytes = plainBytes(manyRanges(2), folder);
   const std::size_t second = bytes.size() / 2;
-  const std::size_t count = bytes.find("CObservationBeaconRanges", second) + 24 + 1 + 12;
-  ASSERT_EQ(bytes.substr(count, 4), std::string("\x01\0\0\0", 4));
-  bytes.replace(count, 4, "\xFF\xFF\xFF\xFF");
-  replaceContent(folder.file("c.rawlog"), bytes);
-  const ReadLog log = readWhole(folder.file("c.rawlog"));
-  EXPECT_EQ(log.measurements.size(), 1U);
-  EXPECT_TRUE(log.end.damaged);
+  const std::size_t place = bytes.find("CObservationBeaconRanges", second) + 24 + 1 + 12;
+  EXPECT_EQ(bytes.substr(place, 4), std::string("\x01\0\0\0", 4));
+  return bytes.replace(place, 4 + first.size(), count + first);
+}
+
+TEST(RawlogDamage, AnAbsurdCountOfRangesIsRefusedBeforeAnythingIsBuilt) {
+  const ScratchFolder folder;
+  const std::string four_billion("\xFF\xFF\xFF\xFF");
+  const std::string sixteen_million("\xFF\xFF\xFF\0", 4);
+  const std::string unknown_object(
+      "\x83"
+      "CAt",
+      4);
+  for (const std::string& bytes :
+       {withACountOf(four_billion, "", folder), withACountOf(sixteen_million, unknown_object, folder)}) {
+    replaceContent(folder.file("c.rawlog"), bytes);
+    const ReadLog log = readWhole(folder.file("c.rawlog"));
+    EXPECT_EQ(log.measurements.size(), 1U);
+    EXPECT_TRUE(log.end.damaged);
+    EXPECT_THAT(log.end.message, ::testing::HasSubstr("absurd number of parts"));
+  }
 }
 
 /// Random cuts and flips never crash or hang the reader, and what it delivers is never defective.
