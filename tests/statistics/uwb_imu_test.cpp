@@ -9,7 +9,7 @@
 
 #include "pos/core/chi_square.hpp"
 #include "support/circle_run.hpp"
-#include "support/eskf_samples.hpp"
+#include "support/honest_world.hpp"
 
 namespace pos::estimation {
 namespace {
@@ -31,48 +31,22 @@ struct Honesty {
 };
 
 Honesty honestRun(std::uint64_t seed) {
-  RandomStream random(seed, 7);
-  const auto normal15 = [&] {
-    Vector<15> n;
-    for (int i = 0; i < 15; ++i) n[i] = random.normal();
-    return n;
-  };
-  const ins::EskfProcess process;
-  constexpr double dt = 0.01;
-  Vector<15> sigma;
-  sigma << Vector<3>::Constant(0.3), Vector<3>::Constant(0.1), 0.01, 0.01, 0.03, Vector<3>::Constant(0.02),
-      Vector<3>::Constant(5e-4);
-  Belief<EskfState> start;
-  start.mean.v_map = {2, 0, 0};
-  start.covariance = sigma.cwiseAbs2().asDiagonal();
-  EskfState truth = plus(start.mean, Vector<15>(sigma.cwiseProduct(normal15())));
-  EskfFilter filter(start, process);
+  testing::HonestWorld world(seed);
+  EskfFilter filter(world.start(), world.process());
   const Eigen::Vector3d lever(0.6, 0.0, 0.4);
   const auto map = testing::circleMap();
   Honesty told;
   for (int k = 1; k <= 1000; ++k) {
-    const Eigen::Vector3d rate(0.02 * std::sin(0.01 * k), 0.01, 0.1);
-    const Eigen::Vector3d force(0.1 * std::sin(0.02 * k), 0.2, 9.80665);
-    const ins::ImuIncrement clean{dt * (rate + truth.gyro_bias), dt * (force + truth.accelerometer_bias), dt};
-    ins::ImuIncrement read = clean;
-    read.angle += process.gyro_density * std::sqrt(dt) * normals(random);
-    read.velocity += process.accelerometer_density * std::sqrt(dt) * normals(random);
-    truth = ins::steppedMean(truth, clean, process.gravity);
-    truth.gyro_bias += process.gyro_bias_walk * std::sqrt(dt) * normals(random);
-    truth.accelerometer_bias += process.accelerometer_bias_walk * std::sqrt(dt) * normals(random);
-    filter.propagate(read);
+    filter.propagate(world.moved());
     if (k % 10 != 0) continue;
     for (const map::Anchor& anchor : map->anchors) {
-      const double range = seenRange(truth, lever, anchor.p_map, 0.0).distance + 0.1 * random.normal();
+      const double range = seenRange(world.truth(), lever, anchor.p_map, 0.0).distance + 0.1 * world.normal();
       told.nis += filter.take({lever, anchor.p_map, anchor.id, range}, 0.01).nis;
       ++told.ranges;
     }
     if (k % 200 != 0) continue;
-    const Belief<EskfState> belief = filter.belief();
-    const Vector<15> e = minus(truth, belief.mean);
-    told.nees.push_back(e.dot(belief.covariance.llt().solve(e)));
-    told.nees_position.push_back(
-        e.head<3>().dot(belief.covariance.topLeftCorner<3, 3>().llt().solve(e.head<3>())));
+    told.nees.push_back(world.nees(filter.belief()));
+    told.nees_position.push_back(world.neesOfPosition(filter.belief()));
   }
   return told;
 }

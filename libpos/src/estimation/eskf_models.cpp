@@ -166,15 +166,17 @@ filters::Innovation<EskfState, 1> heading(const EskfState& x, double yaw) {
   return innovation;
 }
 
+double varianceSeen(const Matrix<15, 15>& P, const PoseRow& row) {
+  double G[n];
+  return seenThrough(G, P.data(), row.by_position.data(), row.by_attitude.data());
+}
+
 double SequentialCorrection::innovation(const PoseRow& row) const {
   return row.nu - row.by_position.dot(d_.segment<3>(p)) - row.by_attitude.dot(d_.segment<3>(th));
 }
 
 SequentialCorrection::Expected SequentialCorrection::expected(const PoseRow& row) const {
-  double G[n];
-  const double variance =
-      seenThrough(G, at_.covariance.data(), row.by_position.data(), row.by_attitude.data());
-  return {innovation(row), variance};
+  return {innovation(row), varianceSeen(at_.covariance, row)};
 }
 
 filters::Correction<1> SequentialCorrection::take(const PoseRow& row, double R, filters::Gate gate) {

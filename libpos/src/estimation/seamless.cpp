@@ -179,8 +179,9 @@ IngestReport Seamless::take(Stamp stamp, const BeaconRange& range) {
       mount != config_.mounts.tags.end() ? mount->p_body : range.tag_body.value_or(Eigen::Vector3d::Zero());
   const std::string_view event = advance(stamp);
   const map::Anchor& anchor = found->second;
-  IngestReport report = core_.take(range.range - anchor.range_bias, anchor.p_map, anchor.survey_sigma,
-                                   tag - config_.mounts.imu);
+  IngestReport report =
+      core_.take({tag - config_.mounts.imu, anchor.p_map, anchor.id, range.range - anchor.range_bias},
+                 anchor.survey_sigma);
   if (report.event.empty()) report.event = event;
   return report;
 }
@@ -233,6 +234,8 @@ Diagnostics Seamless::diagnostics() const {
   addAxes(values, "accelerometer_bias", "m_per_s2", best.mean.accelerometer_bias,
           EskfState::kAccelerometerBias, sigma);
   addAxes(values, "gyro_bias", "rad_per_s", best.mean.gyro_bias, EskfState::kGyroBias, sigma);
+  for (const auto& offset : now.offsets().list())
+    values.push_back({"range_offset_" + std::to_string(offset.anchor) + "_m", offset.mean, offset.sigma});
   return values;
 }
 

@@ -18,6 +18,7 @@ UwbUse validated(UwbUse config) {
   requirePositive(config.sigma, "sigma_m");
   requireValid(config.robust, "robust");
   requireNotNegative(config.adapt_count, "adapt_count");
+  requireValid(config.anchor_bias, "anchor_bias");
   return config;
 }
 

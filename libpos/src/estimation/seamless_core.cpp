@@ -73,14 +73,9 @@ std::vector<ModeState> SeamlessCore::modeStates() const {
 
 std::string_view SeamlessCore::propagate(const ins::ImuIncrement& raw, Stamp stamp) {
   std::string_view event = close();
-  const ins::EskfProcess process{.accelerometer_density = config_->imu.accelerometer_density,
-                                 .gyro_density = config_->imu.gyro_density,
-                                 .accelerometer_bias_walk = config_->imu.accelerometer_bias_walk,
-                                 .gyro_bias_walk = config_->imu.gyro_bias_walk,
-                                 .gravity = config_->standstill.gravity};
-  for (std::size_t j = 0; j < kSeamlessModes; ++j) {
-    if (inUse(j)) ins::propagate(beliefs_[j], raw, process);
-  }
+  const ins::EskfProcess process = processOf(config_->imu, config_->standstill.gravity);
+  if (inUse(kGnss)) ins::propagate(beliefs_[kGnss], raw, process);
+  if (inUse(kUwb)) offsets_.propagate(beliefs_[kUwb], raw, process);
   stamp_ = stamp;
   for (std::size_t j = 0; j < kSeamlessModes; ++j) {
     if (!watch_[j].advanced(stamp)) continue;
@@ -107,7 +102,9 @@ Matrix<2, 2> SeamlessCore::transition(double dt) const {
 void SeamlessCore::mix() {
   const Matrix<2, 2> Pi = transition(seconds(stamp_ - mixed_));
   mixed_ = stamp_;
-  beliefs_ = filters::mixed<EskfState, 2>(beliefs_, filters::mixingWeights<2>(Pi, mu_));
+  const Matrix<2, 2> weights = filters::mixingWeights<2>(Pi, mu_);
+  beliefs_ = filters::mixed<EskfState, 2>(beliefs_, weights);
+  offsets_.mix(weights(row(kUwb), row(kUwb)));
 }
 
 // ---------------------------------------------------------------- epochs
@@ -118,14 +115,19 @@ std::string_view SeamlessCore::open(std::size_t mode) {
   if (watch_[kGnss].usable() && watch_[kUwb].usable()) {
     mix();
   } else if (!inUse(mode)) {
-    // It comes back: from where the other one is, and twice as unsure.
-    beliefs_[mode] = combined();
-    beliefs_[mode].covariance *= config_->imm.rejoin_inflation;
-    mixed_ = stamp_;
+    rejoin(mode);
   }
   const Matrix<3, 3> prior = beliefs_[mode].covariance.topLeftCorner<3, 3>();
   epoch_ = Epoch{.mode = mode, .stamp = stamp_, .prior = prior};
   return event;
+}
+
+/// A mode comes back: from where the other one is, and less sure.
+void SeamlessCore::rejoin(std::size_t mode) {
+  beliefs_[mode] = combined();
+  beliefs_[mode].covariance *= config_->imm.rejoin_inflation;
+  if (mode == kUwb) offsets_.mix(0.0);
+  mixed_ = stamp_;
 }
 
 IngestReport SeamlessCore::counted(IngestReport report) {
@@ -174,67 +176,64 @@ std::optional<double> SeamlessCore::weighted(double nu, double state_variance, d
 }
 
 void SeamlessCore::learnRanges(double nu, double expected_variance) {
-  if (config_->uwb.adapt_count <= 0.0) return;
+  if (config_->uwb.adapt_count <= 0.0 || nu >= 0.0) return;
   const double seen = std::min(uwb_scale_ * square(nu) / expected_variance, kClipped * uwb_scale_);
   uwb_scale_ = std::max(1.0, uwb_scale_ + (seen - uwb_scale_) / config_->uwb.adapt_count);
 }
 
-IngestReport SeamlessCore::take(double range, const Eigen::Vector3d& anchor_map, double anchor_sigma,
-                                const Eigen::Vector3d& lever) {
+IngestReport SeamlessCore::take(const RangeLink& link, double anchor_sigma) {
   const std::string_view event = open(kUwb);
   Belief<EskfState>& belief = beliefs_[kUwb];
-  const RangeSeen seen = seenRange(belief.mean, lever, anchor_map, range);
+  const RangeSeen seen = seenRange(belief.mean, link);
   if (seen.distance < kNearestAnchor) {
     return {
         .verdict = Verdict::Degenerate, .reason = "at the anchor a range has no direction", .event = event};
   }
-  SequentialCorrection correction(belief);
-  const double state_variance = correction.expected(seen.row).variance;
+  const auto expected = offsets_.expected(belief, seen.row, link.anchor);
   const double variance = uwb_scale_ * square(config_->uwb.sigma) + square(anchor_sigma);
-  const double nu = seen.row.nu;
+  const double S = expected.variance + variance;
   IngestReport report{.verdict = Verdict::Gated,
                       .dof = 1,
-                      .nis = square(nu) / (state_variance + variance),
-                      .innovation = nu,
-                      .innovation_sigma = std::sqrt(state_variance + variance),
+                      .nis = square(expected.nu) / S,
+                      .innovation = expected.nu,
+                      .innovation_sigma = std::sqrt(S),
                       .event = event};
-  const std::optional<double> R = weighted(nu, state_variance, variance);
-  learnRanges(nu, state_variance + variance);
-  if (!R) {
+  const std::optional<double> R = weighted(expected.nu, expected.variance, variance);
+  learnRanges(expected.nu, S);
+  if (R) {
+    report.verdict = correct(belief, seen.row, link.anchor, *R);
+    if (report.verdict != Verdict::Applied) report.reason = "the range says nothing";
+  } else {
     report.reason = "the range is too far from what the filter expects";
-    return counted(report);
   }
-  const auto told = correction.take(seen.row, *R);
-  report.verdict = told.verdict;
-  if (told.verdict != Verdict::Applied) {
-    report.reason = "the range says nothing";
-    return counted(report);
-  }
-  belief = correction.injected();
+  doubts_.note(config_->uwb.anchor_bias, stamp_, link.anchor, !R || *R > variance, offsets_);
+  return counted(report);
+}
+
+/// Takes the range, and notes what it says of the mode.
+Verdict SeamlessCore::correct(Belief<EskfState>& belief, const PoseRow& row, int anchor, double R) {
+  const auto told = offsets_.take(belief, row, anchor, R);
+  if (told.verdict != Verdict::Applied) return told.verdict;
   epoch_->evidence.d2 += told.nis;
   epoch_->evidence.log_det_S += std::log(told.S(0, 0));
   ++epoch_->evidence.dof;
-  epoch_->information += seen.row.by_position * seen.row.by_position.transpose() / *R;
-  epoch_->pull += seen.row.by_position * (nu / *R);
-  return counted(report);
+  epoch_->information += row.by_position * row.by_position.transpose() / R;
+  epoch_->pull += row.by_position * (told.nu[0] / R);
+  return told.verdict;
 }
 
 // ---------------------------------------------------------------- probabilities
 
 /// The evidence of the epoch, in the form wanted. In the position domain ranges count as the place they give
-/// together; where they give none they count as they are.
+/// together; where they hardly give one, that place is hardly known.
 double SeamlessCore::logLikelihoodOf(const Epoch& epoch) const {
-  LikelihoodForm form = config_->imm.likelihood;
+  const LikelihoodForm form = config_->imm.likelihood;
   Evidence evidence = epoch.evidence;
-  if (form == LikelihoodForm::PositionDomain) {
-    const Eigen::LLT<Matrix<3, 3>> factor(epoch.information);
-    if (placeSigma(epoch.information) < 0.1 * kUnsure && factor.info() == Eigen::Success) {
-      const Eigen::Vector3d shift = factor.solve(epoch.pull);
-      const Matrix<3, 3> S = epoch.prior + factor.solve(Matrix<3, 3>::Identity());
-      if (epoch.mode == kUwb) evidence = {shift.dot(S.llt().solve(shift)), logDet(S), 3};
-    } else {
-      form = LikelihoodForm::Normalised;
-    }
+  if (form == LikelihoodForm::PositionDomain && epoch.mode == kUwb) {
+    const Matrix<3, 3> R = placeCovariance(epoch.information);
+    const Eigen::Vector3d shift = R * epoch.pull;
+    const Matrix<3, 3> S = epoch.prior + R;
+    evidence = {shift.dot(S.llt().solve(shift)), logDet(S), 3};
   }
   return filters::logLikelihood(form, evidence, evidenceLimit(evidence.dof));
 }

@@ -26,10 +26,14 @@ inline double logDet(const Matrix<3, 3>& S) {
   return 2.0 * S.llt().matrixL().toDenseMatrix().diagonal().array().log().sum();
 }
 
-/// Sigma per axis of the place that readings with this information give.
+/// Covariance of the place that readings with this information give; kUnsure where they give none.
+inline Matrix<3, 3> placeCovariance(const Matrix<3, 3>& information) {
+  return (information + Matrix<3, 3>::Identity() / square(kUnsure)).inverse();
+}
+
+/// Its sigma per axis.
 inline double placeSigma(const Matrix<3, 3>& information) {
-  const Matrix<3, 3> weak = information + Matrix<3, 3>::Identity() / square(kUnsure);
-  return std::sqrt(weak.inverse().trace() / 3.0);
+  return std::sqrt(placeCovariance(information).trace() / 3.0);
 }
 
 }  // namespace pos::estimation

@@ -5,6 +5,11 @@
 
 namespace pos::estimation {
 
+ins::EskfProcess processOf(const ImuNoise& imu, double gravity) {
+  return {imu.accelerometer_density, imu.gyro_density, imu.accelerometer_bias_walk, imu.gyro_bias_walk,
+          gravity};
+}
+
 ImuNoise validated(ImuNoise config) {
   requirePositive(config.gyro_density, "gyro_noise_deg_per_sqrt_s");
   requirePositive(config.accelerometer_density, "accelerometer_noise_m_per_s_per_sqrt_s");

@@ -4,27 +4,19 @@
 #include <cmath>
 #include <type_traits>
 
+#include "inertial_aids.hpp"
 #include "parts.hpp"
-#include "pos/core/chi_square.hpp"
 #include "pos/core/error.hpp"
 
 namespace pos::estimation {
 namespace {
 
-constexpr double kAidConfidence = 0.999;   // gate of aids and fixes
 constexpr double kLostSpeedSigma = 1.0;    // m/s added when the filter was lost
 constexpr double kLostHeadingSigma = 1.0;  // rad added when it was lost again
 constexpr double kAidTime = 1e-6;          // s
 
 template <class Filter>
-constexpr bool kHasBiases = std::is_same_v<Filter, EskfFilter>;
-
-DualUwbConfig linksOf(const UwbImuConfig& config) {
-  DualUwbConfig links;
-  links.tags = config.tags;
-  links.range_sigma = config.range_sigma;
-  return links;
-}
+constexpr bool kHasOffsets = std::is_same_v<Filter, EskfFilter>;
 
 GateConfig watchOf(const RecoveryConfig& recovery) {
   GateConfig gate;
@@ -62,7 +54,7 @@ void UwbImuCore<Filter>::reset(Stamp stamp, const Belief<Pose2>& prior) {
   rate_.forget();
   wheels_.forget();
   watch_.forget();
-  doubts_.clear();
+  doubts_.forget();
 }
 
 template <class Filter>
@@ -163,34 +155,10 @@ void UwbImuCore<Filter>::aid(Stamp stamp) {
   if (!aided_) aided_ = stamp;
   if (seconds(stamp - *aided_) < config_.aids.interval - kAidTime) return;
   aided_ = stamp;
-  const MotionAids& aids = config_.aids;
-  if (aids.height_sigma > 0.0) {
-    const auto height = [&](const EskfState& x) {
-      return pointHeight(x, config_.height, -config_.mounts.imu);
-    };
-    (void)filter_->template correct<1>(height, Matrix<1, 1>(square(aids.height_sigma)), filters::Gate{});
-  }
-  if (aids.lateral_sigma > 0.0) {
-    const auto straight = [&](const EskfState& x) {
-      return noSideSlip(x, config_.mounts.axle - config_.mounts.imu, track_.rate());
-    };
-    const Matrix<2, 2> R = square(aids.lateral_sigma) * Matrix<2, 2>::Identity();
-    (void)filter_->template correct<2>(straight, R, {chiSquareQuantile(kAidConfidence, 2.0)});
-  }
-  aidStandstill();
+  aidHeight(*filter_, config_);
+  aidRolling(*filter_, config_, track_.rate());
+  if (standstill_.still()) aidStandstill(*filter_, config_, rate_);
   rate_.forget();
-}
-
-/// Zero velocity, and what the gyros read is their bias; both gated, for a vehicle that is carried is quiet.
-template <class Filter>
-void UwbImuCore<Filter>::aidStandstill() {
-  if (!(config_.aids.zero_velocity_sigma > 0.0) || !standstill_.still()) return;
-  const filters::Gate gate{chiSquareQuantile(kAidConfidence, 3.0)};
-  (void)filter_->template correct<3>(atRest, diagonal3(config_.aids.zero_velocity_sigma), gate);
-  if (!config_.alignment.zero_rate || rate_.time() <= 0.0) return;
-  const auto quiet = [&](const EskfState& x) { return notTurning(x, rate_.rate()); };
-  (void)filter_->template correct<3>(quiet, diagonal3(config_.imu.gyro_density / std::sqrt(rate_.time())),
-                                     gate);
 }
 
 template <class Filter>
@@ -202,11 +170,7 @@ IngestReport UwbImuCore<Filter>::roll(Stamp stamp, const WheelIntake::Told& told
   if (told.reading.first || told.reading.dt <= 0.0) return {.verdict = Verdict::Applied};
   carryTo(stamp);
   const double speed = told.reading.way.middle() / told.reading.dt;
-  const auto wheels = [&](const EskfState& x) {
-    return wheelSpeed(x, speed, config_.mounts.axle - config_.mounts.imu, track_.rate());
-  };
-  const auto correction = filter_->template correct<1>(
-      wheels, Matrix<1, 1>(square(config_.aids.wheel_speed_sigma)), {chiSquareQuantile(kAidConfidence, 1.0)});
+  const auto correction = aidWheels(*filter_, config_, speed, track_.rate());
   IngestReport report{.verdict = correction.verdict, .dof = 1, .nis = correction.nis};
   report.innovation = correction.nu[0];
   report.innovation_sigma = std::sqrt(correction.S(0, 0));
@@ -238,20 +202,16 @@ Diagnostics UwbImuCore<Filter>::diagnostics() const {
                      {"ranges_doubted", static_cast<double>(doubted_)},
                      {"range_nis", last_nis_}};
   const Belief<EskfState> belief = filter_ ? filter_->belief() : Belief<EskfState>{};
-  const auto three = [&](const char* name, const char* unit, const Eigen::Vector3d& value, int row) {
-    for (int i = 0; i < 3; ++i) {
-      const double sigma = std::sqrt(std::max(0.0, belief.covariance(row + i, row + i)));
-      values.push_back({std::string(name) + "_" + "xyz"[i] + "_" + unit, value[i], sigma});
-    }
-  };
-  three("gyro_bias", "rad_per_s", belief.mean.gyro_bias, EskfState::kGyroBias);
-  three("accelerometer_bias", "m_per_s2", belief.mean.accelerometer_bias, EskfState::kAccelerometerBias);
-  three("velocity", "m_per_s", belief.mean.v_map, EskfState::kVelocity);
-  if constexpr (kHasBiases<Filter>) {
+  const auto sigma = [&](int row) { return std::sqrt(std::max(0.0, belief.covariance(row, row))); };
+  addAxes(values, "gyro_bias", "rad_per_s", belief.mean.gyro_bias, EskfState::kGyroBias, sigma);
+  addAxes(values, "accelerometer_bias", "m_per_s2", belief.mean.accelerometer_bias,
+          EskfState::kAccelerometerBias, sigma);
+  addAxes(values, "velocity", "m_per_s", belief.mean.v_map, EskfState::kVelocity, sigma);
+  if constexpr (kHasOffsets<Filter>) {
     if (!filter_) return values;
-    for (const auto& bias : filter_->biases()) {
-      values.push_back(
-          {"range_offset_" + std::to_string(links_.anchorId(bias.anchor)) + "_m", bias.mean, bias.sigma});
+    for (const auto& offset : filter_->offsets().list()) {
+      values.push_back({"range_offset_" + std::to_string(links_.anchorId(offset.anchor)) + "_m", offset.mean,
+                        offset.sigma});
     }
   }
   return values;
@@ -301,32 +261,13 @@ IngestReport UwbImuCore<Filter>::weigh(Stamp stamp, const RangeLink& link, doubl
     report.reason = "the range disagrees with the prediction";
     ++rejected_;
   }
-  doubt(stamp, link.anchor, !factor || *factor > 1.0);
+  if constexpr (kHasOffsets<Filter>)
+    doubts_.note(config_.anchor_bias, stamp, link.anchor, !factor || *factor > 1.0, filter_->offsets());
   if (watch_.opens(stamp, link.anchor, report.verdict)) {
     recover(expected.nu);
     report.event = "hardly a range was accepted for a while: the filter doubts itself";
   }
   return report;
-}
-
-template <class Filter>
-void UwbImuCore<Filter>::doubt(Stamp stamp, int anchor, bool doubtful) {
-  if constexpr (kHasBiases<Filter>) {
-    if (!(config_.anchor_bias.sigma > 0.0)) return;
-    const auto biases = filter_->biases();
-    const bool has =
-        std::any_of(biases.begin(), biases.end(), [&](const auto& b) { return b.anchor == anchor; });
-    switch (doubts_[anchor].note(config_.anchor_bias, stamp, doubtful, has)) {
-      case AnchorDoubt::Change::Add:
-        filter_->addBias(anchor, config_.anchor_bias.sigma, config_.anchor_bias.time);
-        break;
-      case AnchorDoubt::Change::Drop:
-        filter_->dropBias(anchor);
-        break;
-      case AnchorDoubt::Change::None:
-        break;
-    }
-  }
 }
 
 /// Lost: as unsure of the place as the ranges are far off, of the speed, and the second time of the heading.
@@ -349,8 +290,7 @@ IngestReport UwbImuCore<Filter>::take(Stamp stamp, const PassageFix& fix) {
   }
   carryTo(stamp);
   const auto place = [&](const EskfState& x) { return pointFix(x, fix.p_map, lever); };
-  const auto told =
-      filter_->template correct<3>(place, fix.covariance, {chiSquareQuantile(kAidConfidence, 3.0)});
+  const auto told = filter_->template correct<3>(place, fix.covariance, aidGate(3));
   IngestReport report{.verdict = told.verdict, .dof = 3, .nis = told.nis};
   if (told.verdict == Verdict::Gated) report.reason = "the fix is too far from where the filter is";
   if (told.verdict == Verdict::Degenerate) report.reason = "the fix has no usable covariance";
@@ -360,23 +300,5 @@ IngestReport UwbImuCore<Filter>::take(Stamp stamp, const PassageFix& fix) {
 template class UwbImuCore<EskfFilter>;
 template class UwbImuCore<AdditiveEkf>;
 template class UwbImuCore<ManifoldUkf>;
-
-std::unique_ptr<Estimator> makeUwbImu(const UwbImuConfig& config,
-                                      const std::shared_ptr<const map::TunnelMap>& map) {
-  const auto made = [&](auto core) -> std::unique_ptr<Estimator> {
-    return std::make_unique<LateReplay<decltype(core)>>(std::move(core), config.lag);
-  };
-  switch (config.variant) {
-    case UwbImuConfig::Variant::UwbOnly:
-      return made(UwbOnlyCore(config, map));
-    case UwbImuConfig::Variant::Ekf:
-      return made(UwbImuCore<AdditiveEkf>(config, map));
-    case UwbImuConfig::Variant::Ukf:
-      return made(UwbImuCore<ManifoldUkf>(config, map));
-    case UwbImuConfig::Variant::Eskf:
-      break;
-  }
-  return made(UwbImuCore<EskfFilter>(config, map));
-}
 
 }  // namespace pos::estimation

@@ -29,9 +29,11 @@ void setPosition(Belief<EskfState>& belief, const UwbImuConfig& config, const Be
 
 }  // namespace
 
-ins::EskfProcess processOf(const ImuNoise& imu, double gravity) {
-  return {imu.accelerometer_density, imu.gyro_density, imu.accelerometer_bias_walk, imu.gyro_bias_walk,
-          gravity};
+DualUwbConfig linksOf(const UwbImuConfig& config) {
+  DualUwbConfig links;
+  links.tags = config.tags;
+  links.range_sigma = config.range_sigma;
+  return links;
 }
 
 Belief<EskfState> movingStart(const UwbImuConfig& config, const Belief<Pose2>& at) {
@@ -95,17 +97,22 @@ Estimate bodyEstimate(Stamp stamp, const Belief<EskfState>& belief, const Eigen:
   return estimate;
 }
 
-AnchorDoubt::Change AnchorDoubt::note(const AnchorBiasConfig& config, Stamp stamp, bool doubtful,
-                                      bool has_state) {
-  if (doubtful) {
-    good_since_.reset();
-    if (!doubtful_since_) doubtful_since_ = stamp;
-    const bool long_enough = seconds(stamp - *doubtful_since_) > config.after;
-    return !has_state && long_enough ? Change::Add : Change::None;
+std::unique_ptr<Estimator> makeUwbImu(const UwbImuConfig& config,
+                                      const std::shared_ptr<const map::TunnelMap>& map) {
+  const auto made = [&](auto core) -> std::unique_ptr<Estimator> {
+    return std::make_unique<LateReplay<decltype(core)>>(std::move(core), config.lag);
+  };
+  switch (config.variant) {
+    case UwbImuConfig::Variant::UwbOnly:
+      return made(UwbOnlyCore(config, map));
+    case UwbImuConfig::Variant::Ekf:
+      return made(UwbImuCore<AdditiveEkf>(config, map));
+    case UwbImuConfig::Variant::Ukf:
+      return made(UwbImuCore<ManifoldUkf>(config, map));
+    case UwbImuConfig::Variant::Eskf:
+      break;
   }
-  doubtful_since_.reset();
-  if (!good_since_) good_since_ = stamp;
-  return has_state && seconds(stamp - *good_since_) > config.drop_after ? Change::Drop : Change::None;
+  return made(UwbImuCore<EskfFilter>(config, map));
 }
 
 }  // namespace pos::estimation

@@ -9,24 +9,16 @@
 namespace pos::estimation {
 namespace {
 
-constexpr int kFewest = 3;           // ranges of a plane fix
-constexpr double kSearch = 0.001;    // share of good fits that are searched for bad ranges, robust
-constexpr double kNoSearch = 1e-12;  // and otherwise: least squares of all ranges
+constexpr int kFewest = 3;                               // ranges of a plane fix
 constexpr double kNoHeading = kPi / 1.7320508075688772;  // rad, sigma of a heading that may be any
-
-DualUwbConfig linksOf(const UwbImuConfig& config) {
-  DualUwbConfig links;
-  links.tags = config.tags;
-  links.range_sigma = config.range_sigma;
-  return links;
-}
 
 }  // namespace
 
 UwbOnlyCore::UwbOnlyCore(const UwbImuConfig& config, std::shared_ptr<const map::TunnelMap> map)
     : config_(config),
       links_(linksOf(config), *map),
-      test_(config.robust.form == filters::RobustConfig::Form::None ? kNoSearch : kSearch),
+      test_(config.robust.form == filters::RobustConfig::Form::None ? uwb::ResidualTest::off()
+                                                                    : uwb::ResidualTest()),
       prior_(knownStart(config.start)) {
   ensure(config.start.mode != StartMode::AtTruth,
          "start.mode at_truth must be spelt out before an estimator is made");

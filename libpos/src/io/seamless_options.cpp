@@ -64,7 +64,9 @@ OptionTable<UwbUse> uwbOptions() {
       .number("sigma_m", &UwbUse::sigma, moreThan(0), "Standard deviation of a range in sight.")
       .table("robust", &UwbUse::robust, robustOptions(), "How far a range that surprises is believed.")
       .number("adapt_count", &UwbUse::adapt_count, between(0, 1e6),
-              "Ranges over which it is learnt how much worse they are than sigma_m; 0: it is not.")
+              "Ranges too short over which it is learnt how much worse they are than sigma_m; 0: it is not.")
+      .table("anchor_bias", &UwbUse::anchor_bias, anchorBiasOptions(),
+             "Offsets of anchors that keep surprising, as states.")
       .flag("masked", &UwbUse::masked, "Leaves the radio out everywhere.")
       .check(kValid);
 }

@@ -254,16 +254,18 @@ TEST(Filters, AdditiveQuaternionHasNoUncertaintyAlongItself) {
 TEST(Filters, AnchorOffsetBecomesKnownAndGoesWithoutATrace) {
   EskfFilter filter({EskfState{}, 1e-4 * Matrix<15, 15>::Identity()}, {});
   const Matrix<15, 15> before = filter.belief().covariance;
-  filter.addBias(7, 0.5, 100.0);
-  filter.addBias(3, 0.5, 100.0);
-  filter.dropBias(7);  // before anything was learnt of it
+  constexpr AnchorBiasConfig kSlow{.sigma = 0.5, .time = 100.0};
+  filter.offsets().add(7, kSlow);
+  filter.offsets().add(3, kSlow);
+  filter.offsets().drop(7);  // before anything was learnt of it
   EXPECT_EQ(filter.belief().covariance, before);
   const Eigen::Vector3d anchor(10, 0, 0);
   for (int i = 0; i < 10; ++i) (void)filter.take({Eigen::Vector3d::Zero(), anchor, 3, 10.4}, 0.01);
-  ASSERT_EQ(filter.biases().size(), 1U);
-  EXPECT_EQ(filter.biases()[0].anchor, 3);
-  EXPECT_NEAR(filter.biases()[0].mean, 0.4, 0.02);
-  EXPECT_LT(filter.biases()[0].sigma, 0.05);
+  const auto offsets = filter.offsets().list();
+  ASSERT_EQ(offsets.size(), 1U);
+  EXPECT_EQ(offsets[0].anchor, 3);
+  EXPECT_NEAR(offsets[0].mean, 0.4, 0.02);
+  EXPECT_LT(offsets[0].sigma, 0.05);
   EXPECT_LT(filter.mean().p_map.norm(), 0.01);  // the offset took it, not the position
   EXPECT_NEAR(filter.expected({Eigen::Vector3d::Zero(), anchor, 3, 10.4}).nu, 0.0, 0.02);
   EXPECT_NEAR(filter.expected({Eigen::Vector3d::Zero(), anchor, 5, 10.4}).nu, 0.4, 0.02);

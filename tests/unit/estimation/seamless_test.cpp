@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "pos/core/random.hpp"
@@ -47,9 +49,10 @@ double placeAt(double t) {
 struct Drive {
   double until = 30.0;
   double gnss_sigma = 0.02;
-  double gnss_wrong_from = 1e9;  ///< m, from here on fixes are 5 m off
-  double gnss_until = 100.0;     ///< m
-  double uwb_from = 50.0;        ///< m
+  double gnss_wrong_from = 1e9;    ///< m, from here on fixes are 5 m off
+  double gnss_until = 100.0;       ///< m
+  double uwb_from = 50.0;          ///< m
+  double sixth_anchor_long = 0.0;  ///< m, on all its ranges
   std::uint64_t seed = 1;
 };
 
@@ -79,11 +82,12 @@ std::vector<Measurement> measured(const map::TunnelMap& map, const Drive& drive)
         const double distance = (tag - anchor.p_map).norm();
         const double noise = random.normal(0.0, 0.1);
         if (tag.x() < drive.uwb_from || distance > 40.0) continue;
-        log.push_back({at(t_range), "uwb",
-                       BeaconRange{.tag = 1,
-                                   .anchor = anchor.id,
-                                   .range = distance + noise,
-                                   .tag_body = Eigen::Vector3d(0, 0, 1)}});
+        log.push_back(
+            {at(t_range), "uwb",
+             BeaconRange{.tag = 1,
+                         .anchor = anchor.id,
+                         .range = distance + noise + (anchor.id == 6 ? drive.sixth_anchor_long : 0.0),
+                         .tag_body = Eigen::Vector3d(0, 0, 1)}});
       }
     }
     const double force = t > 4.0 && t <= 6.0 ? 2.5 : 0.0;
@@ -173,6 +177,30 @@ TEST(Seamless, TheOperatorsMaskKeepsSatellitesOutEverywhere) {
   const Told end = told(config, {.until = 8.0});
   EXPECT_GT(end.masked, 30);
   EXPECT_FALSE(end.gnss_usable);
+}
+
+TEST(Seamless, AnAnchorThatKeepsReadingTooLongGetsAnOffsetOfItsOwn) {
+  const Drive drive{.until = 25.0, .gnss_until = 60.0, .sixth_anchor_long = 0.5};
+  SeamlessConfig config = settings();
+  config.uwb.robust.form = filters::RobustConfig::Form::Huber;
+  const double without = told(config, drive).largest_dark;
+  config.uwb.anchor_bias.sigma = 0.5;
+  EXPECT_LT(told(config, drive).largest_dark, 0.8 * without);
+
+  const auto map = mine();
+  Seamless estimator(config, map);
+  std::map<std::string, NamedValue> offsets;  // the surest while it was a state
+  for (const Measurement& measurement : measured(*map, drive)) {
+    (void)estimator.ingest(measurement);
+    for (const NamedValue& value : estimator.diagnostics()) {
+      if (value.name.find("range_offset_") != 0) continue;
+      const auto [it, fresh] = offsets.emplace(value.name, value);
+      if (!fresh && value.sigma < it->second.sigma) it->second = value;
+    }
+  }
+  ASSERT_TRUE(offsets.contains("range_offset_6_m"));
+  EXPECT_NEAR(offsets["range_offset_6_m"].value, 0.5, 0.1);
+  EXPECT_LE(offsets.size(), 2U);  // hardly another anchor was suspected
 }
 
 TEST(Seamless, ReadingsBetweenSamplesLoseNoIncrement) {

@@ -24,6 +24,8 @@ export class FakeServer {
   events: RunEvent[] = [];
   commands: unknown[] = [];
   bigTrack: ArrayBuffer | null = null;
+  /** The background picture, as SVG. */
+  background: string | null = null;
 
   private readonly streams = new Set<ServerResponse>();
   private readonly server: Server;
@@ -113,6 +115,11 @@ export class FakeServer {
     if (path === '/api/map/check') return json(response, findingsOf(JSON.parse(body) as MapDocument));
     if (path === '/api/map/coverage') return json(response, coverageOf(JSON.parse(body) as MapDocument, url.searchParams));
     if (path === '/api/map/diff') return json(response, diffOf(this.map, JSON.parse(body) as MapDocument));
+    if (path === '/api/map/background' && this.background !== null) {
+      response.writeHead(200, { 'Content-Type': 'image/svg+xml' });
+      response.end(this.background);
+      return;
+    }
     refuse(response, 404, 'not_found', `there is no ${path}`);
   }
 

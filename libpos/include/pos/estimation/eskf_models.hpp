@@ -20,6 +20,14 @@ struct PoseRow {
   TangentRows<EskfState, 1> dense() const;
 };
 
+/// A range ready for a filter.
+struct RangeLink {
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();       ///< m, tag from the inertial unit, body axes
+  Eigen::Vector3d anchor_map = Eigen::Vector3d::Zero();  ///< m
+  int anchor = 0;                                        ///< which one: the filter's number for it
+  double range = 0.0;                                    ///< m
+};
+
 /// A range to an anchor seen from the state: h = |p + R l - s|.
 struct RangeSeen {
   double distance = 0.0;  ///< m, predicted
@@ -28,6 +36,9 @@ struct RangeSeen {
 /// `range` (m) from the tag at `lever` to the anchor. The row means nothing within kNearestAnchor of it.
 RangeSeen seenRange(const EskfState& x, const Eigen::Vector3d& lever, const Eigen::Vector3d& anchor_map,
                     double range);
+inline RangeSeen seenRange(const EskfState& x, const RangeLink& link) {
+  return seenRange(x, link.lever, link.anchor_map, link.range);
+}
 inline constexpr double kNearestAnchor = 0.2;  ///< m
 
 /// A fix of the point at `lever`: an antenna's, or a tag's from multilateration. Map axes, m.
@@ -65,6 +76,9 @@ filters::Correction<M> correctError(Belief<EskfState>& belief,
   }
   return told;
 }
+
+/// H P H' of a row.
+double varianceSeen(const Matrix<15, 15>& P, const PoseRow& row);
 
 /// Scalar readings of one moment, one after the other, linearised about one state: the innovations are
 /// corrected by the error found so far, and the error is injected once (section A4 of the specification).

@@ -5,19 +5,9 @@
 ///
 /// A sensor model is any callable that takes an EskfState and gives filters::Innovation<EskfState, M>.
 
-#include <vector>
-
-#include "pos/estimation/eskf_models.hpp"
+#include "pos/estimation/range_offsets.hpp"
 
 namespace pos::estimation {
-
-/// A range ready for a filter.
-struct RangeLink {
-  Eigen::Vector3d lever = Eigen::Vector3d::Zero();       ///< m, tag from the inertial unit, body axes
-  Eigen::Vector3d anchor_map = Eigen::Vector3d::Zero();  ///< m
-  int anchor = 0;                                        ///< index of the anchor
-  double range = 0.0;                                    ///< m
-};
 
 /// Motion when the inertial unit is silent: straight on, and ever less sure.
 ins::EskfTransition coasting(double dt);
@@ -40,34 +30,14 @@ class EskfFilter {
   /// Adds to the variances of the error.
   void inflate(const Vector<15>& variance) { belief_.covariance.diagonal() += variance; }
 
-  struct AnchorBias {
-    int anchor = 0;
-    double mean = 0.0;   ///< m
-    double sigma = 0.0;  ///< m
-  };
-  std::vector<AnchorBias> biases() const;
-  /// Makes the anchor's offset a state: `sigma` (m) about zero, correlated over `time` (s).
-  void addBias(int anchor, double sigma, double time);
-  /// Forgets it, and what it had to do with the rest.
-  void dropBias(int anchor);
+  /// Offsets of anchors' ranges; whoever watches the anchors adds and drops them.
+  RangeOffsets& offsets() { return offsets_; }
+  const RangeOffsets& offsets() const { return offsets_; }
 
  private:
-  using Cross = Eigen::Matrix<double, 15, Eigen::Dynamic>;
-  /// Joint correction of state and offsets: H over both.
-  template <int M>
-  filters::Correction<M> correctJoint(const filters::Innovation<EskfState, M>& innovation,
-                                      const Eigen::Matrix<double, M, Eigen::Dynamic>& H_bias,
-                                      const Matrix<M, M>& R, filters::Gate gate);
-  int indexOf(int anchor) const;
-
   Belief<EskfState> belief_;
   ins::EskfProcess process_;
-  std::vector<int> anchors_;  // those with a state
-  Eigen::VectorXd bias_;
-  Cross cross_;              // covariance of the error with the offsets
-  Eigen::MatrixXd bias_P_;   // of the offsets
-  double bias_sigma_ = 0.0;  // m, steady
-  double bias_time_ = 1.0;   // s
+  RangeOffsets offsets_;
 };
 
 /// Total state, 16 numbers, additive quaternion (section A5.1 of the specification). Its covariance has rank
@@ -139,58 +109,9 @@ class ManifoldUkf {
 
 // ---------------------------------------------------------------- templates
 
-namespace detail {
-
-/// nu, S, verdict of a correction that has not been made yet.
-template <int M>
-filters::Correction<M> judged(const Vector<M>& nu, const Matrix<M, M>& S, filters::Gate gate) {
-  filters::Correction<M> told;
-  told.nu = nu;
-  told.S = S;
-  const Eigen::LLT<Matrix<M, M>> factor(S);
-  if (factor.info() != Eigen::Success || !S.allFinite() || !nu.allFinite()) {
-    told.verdict = Verdict::Degenerate;
-    return told;
-  }
-  told.nis = nu.dot(factor.solve(nu));
-  if (told.nis > gate.threshold) told.verdict = Verdict::Gated;
-  return told;
-}
-
-}  // namespace detail
-
-template <int M>
-filters::Correction<M> EskfFilter::correctJoint(const filters::Innovation<EskfState, M>& innovation,
-                                                const Eigen::Matrix<double, M, Eigen::Dynamic>& H_bias,
-                                                const Matrix<M, M>& R, filters::Gate gate) {
-  const Eigen::Matrix<double, 15, M> G =
-      belief_.covariance * innovation.H.transpose() + cross_ * H_bias.transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, M> G_bias =
-      cross_.transpose() * innovation.H.transpose() + bias_P_ * H_bias.transpose();
-  const auto told = detail::judged<M>(innovation.nu, innovation.H * G + H_bias * G_bias + R, gate);
-  if (told.verdict != Verdict::Applied) return told;
-  const Eigen::LLT<Matrix<M, M>> S(told.S);
-  const Eigen::Matrix<double, 15, M> K = S.solve(G.transpose()).transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, M> K_bias = S.solve(G_bias.transpose()).transpose();
-  const Vector<15> d = K * told.nu;
-  belief_.mean = plus(belief_.mean, d);
-  bias_ += K_bias * told.nu;
-  belief_.covariance -= K * G.transpose();
-  cross_ -= K * G_bias.transpose();
-  bias_P_ -= K_bias * G_bias.transpose();
-  filters::symmetrise(belief_.covariance);
-  filters::symmetrise(bias_P_);
-  const Eigen::Matrix3d turned = ins::rightJacobian(d.segment<3>(EskfState::kAttitude));
-  ins::turnAttitude(belief_.covariance, turned);
-  cross_.middleRows<3>(EskfState::kAttitude) = (turned * cross_.middleRows<3>(EskfState::kAttitude)).eval();
-  return told;
-}
-
 template <int M, class Model>
 filters::Correction<M> EskfFilter::correct(const Model& model, const Matrix<M, M>& R, filters::Gate gate) {
-  if (anchors_.empty()) return correctError<M>(belief_, model(belief_.mean), R, gate);
-  using Rows = Eigen::Matrix<double, M, Eigen::Dynamic>;
-  return correctJoint<M>(model(belief_.mean), Rows::Zero(M, bias_.size()), R, gate);
+  return offsets_.correct<M>(belief_, model(belief_.mean), R, gate);
 }
 
 template <int M, class Model>
@@ -228,7 +149,7 @@ ManifoldUkf::Cloud<M> ManifoldUkf::seenThrough(const Model& model) const {
 template <int M>
 filters::Correction<M> ManifoldUkf::correctWith(const Cloud<M>& cloud, const Matrix<M, M>& R,
                                                 filters::Gate gate) {
-  const auto told = detail::judged<M>(cloud.nu, cloud.spread + R, gate);
+  const auto told = judged<M>(cloud.nu, cloud.spread + R, gate);
   if (told.verdict != Verdict::Applied) return told;
   const Matrix<15, M> K = told.S.llt().solve(cloud.cross.transpose()).transpose();
   const Vector<15> d = K * told.nu;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "pos/estimation/anchor_bias_config.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/start_config.hpp"
 #include "pos/estimation/tag_mount.hpp"
@@ -48,9 +49,11 @@ struct GnssUse {
 struct UwbUse {
   double sigma = 0.10;           ///< m, of a range in sight
   filters::RobustConfig robust;  ///< how doubtful ranges count
-  /// Learns from the ranges how much worse than `sigma` they are, over about so many of them; 0: does not.
+  /// Learns how much worse than `sigma` the ranges are, over about so many of them that are shorter than
+  /// expected (those too long may be of hidden anchors); 0: does not.
   double adapt_count = 0.0;
-  bool masked = false;  ///< left out everywhere, the operator's word
+  AnchorBiasConfig anchor_bias;  ///< offsets of anchors that keep surprising
+  bool masked = false;           ///< left out everywhere, the operator's word
 
   bool operator==(const UwbUse&) const = default;
 };

@@ -7,6 +7,7 @@
 #include "pos/estimation/calibration_state.hpp"
 #include "pos/estimation/start_config.hpp"
 #include "pos/filters/noise_adaptation.hpp"
+#include "pos/ins/eskf.hpp"
 #include "pos/ins/odometer.hpp"
 #include "pos/ins/standstill.hpp"
 
@@ -113,6 +114,8 @@ struct SinsDrConfig {
   bool operator==(const SinsDrConfig&) const = default;
 };
 
+/// The process noise of an error-state filter with this unit, in a field of `gravity` m/s^2.
+ins::EskfProcess processOf(const ImuNoise& imu, double gravity);
 ImuNoise validated(ImuNoise config);
 AlignmentConfig validated(AlignmentConfig config);
 SlipConfig validated(SlipConfig config);

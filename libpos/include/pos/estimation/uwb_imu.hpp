@@ -2,7 +2,6 @@
 /// `uwb_imu`: one radio tag and an inertial unit, tightly coupled (J. China Coal Soc. 2024, doi
 /// 10.13225/j.cnki.jccs.2024.0676, section 1). docs/math/eskf.md walks through it.
 
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -18,9 +17,8 @@
 
 namespace pos::estimation {
 
-/// The process that a configuration describes.
-ins::EskfProcess processOf(const ImuNoise& imu, double gravity);
-
+/// The part of the configuration that tells which links there are.
+DualUwbConfig linksOf(const UwbImuConfig& config);
 /// The belief of an inertial unit that drives: level, heading and position as given.
 Belief<EskfState> movingStart(const UwbImuConfig& config, const Belief<Pose2>& at);
 /// The belief of one that has stood: level and gyro bias from the average.
@@ -28,18 +26,6 @@ Belief<EskfState> restedStart(const UwbImuConfig& config, const Belief<Pose2>& a
                               const ins::RestAverage& average, bool rested);
 /// The pose of the body whose inertial unit sits at `imu` (m, body).
 Estimate bodyEstimate(Stamp stamp, const Belief<EskfState>& belief, const Eigen::Vector3d& imu);
-
-/// What one anchor's ranges did lately, for the offset that may become a state.
-class AnchorDoubt {
- public:
-  enum class Change { None, Add, Drop };
-  /// One range that lay `doubtful` (beyond the first threshold) or not.
-  Change note(const AnchorBiasConfig& config, Stamp stamp, bool doubtful, bool has_state);
-
- private:
-  std::optional<Stamp> doubtful_since_;
-  std::optional<Stamp> good_since_;
-};
 
 /// One of the three filters with everything round it. Copyable; LateReplay makes an Estimator of it.
 template <class Filter>
@@ -76,9 +62,7 @@ class UwbImuCore {
   static void apply(Filter& filter, const ImuTrack::Share& share);
   void carryTo(Stamp stamp);
   void aid(Stamp stamp);
-  void aidStandstill();
   IngestReport weigh(Stamp stamp, const RangeLink& link, double sigma);
-  void doubt(Stamp stamp, int anchor, bool doubtful);
   void recover(double innovation);
 
   UwbImuConfig config_;
@@ -98,7 +82,7 @@ class UwbImuCore {
   WheelIntake wheels_;
 
   GateWatch watch_;
-  std::map<int, AnchorDoubt> doubts_;
+  AnchorDoubts doubts_;
   int recoveries_ = 0;
   int rejected_ = 0;
   int doubted_ = 0;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "pos/estimation/anchor_bias_config.hpp"
 #include "pos/estimation/sins_configs.hpp"
 #include "pos/estimation/tag_mount.hpp"
 #include "pos/filters/robust_weight.hpp"
@@ -21,16 +22,6 @@ struct InertialStart {
   double tilt_sigma = 0.01745;  ///< rad, roll and pitch, InMotion
   double height_sigma = 0.1;    ///< m
   bool operator==(const InertialStart&) const = default;
-};
-
-/// An offset of one anchor's ranges as a further state, from the time that the anchor keeps surprising.
-struct AnchorBiasConfig {
-  double sigma = 0.0;       ///< m, how large it may be; 0 = no such states
-  double time = 5.0;        ///< s, correlation time (Gauss-Markov)
-  double after = 1.0;       ///< s of surprise before the state is added
-  double drop_after = 5.0;  ///< s without surprise before it is dropped
-
-  bool operator==(const AnchorBiasConfig&) const = default;
 };
 
 /// What else is known of the motion. 0 = not used.
@@ -87,7 +78,6 @@ struct UwbImuConfig {
 };
 
 InertialStart validated(InertialStart config);
-AnchorBiasConfig validated(AnchorBiasConfig config);
 MotionAids validated(MotionAids config);
 RecoveryConfig validated(RecoveryConfig config);
 UwbImuConfig validated(UwbImuConfig config);

@@ -16,6 +16,8 @@ class ResidualTest {
  public:
   /// `significance` is the share of good fits that fail, 0 < significance < 1.
   explicit ResidualTest(double significance = 0.001);
+  /// The test that every fit passes: all ranges count, whatever they say.
+  static ResidualTest off();
 
   /// True when a sum of squared whitened residuals with `dof` redundant ranges is no surprise. Without
   /// redundancy nothing can be tested and the answer is yes.
