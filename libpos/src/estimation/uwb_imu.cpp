@@ -18,13 +18,6 @@ constexpr double kAidTime = 1e-6;          // s
 template <class Filter>
 constexpr bool kHasOffsets = std::is_same_v<Filter, EskfFilter>;
 
-GateConfig watchOf(const RecoveryConfig& recovery) {
-  GateConfig gate;
-  gate.open_after = recovery.after;
-  gate.agreement_fraction = recovery.agreement_fraction;
-  return gate;
-}
-
 }  // namespace
 
 template <class Filter>

@@ -36,6 +36,13 @@ DualUwbConfig linksOf(const UwbImuConfig& config) {
   return links;
 }
 
+GateConfig watchOf(const RecoveryConfig& recovery) {
+  GateConfig gate;
+  gate.open_after = recovery.after;
+  gate.agreement_fraction = recovery.agreement_fraction;
+  return gate;
+}
+
 Belief<EskfState> movingStart(const UwbImuConfig& config, const Belief<Pose2>& at) {
   Belief<EskfState> belief;
   belief.mean.q_map_body = Pose3::fromPlanar(at.mean).rotation;

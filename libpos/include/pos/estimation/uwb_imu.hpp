@@ -19,6 +19,8 @@ namespace pos::estimation {
 
 /// The part of the configuration that tells which links there are.
 DualUwbConfig linksOf(const UwbImuConfig& config);
+/// What watches for all anchors being rejected.
+GateConfig watchOf(const RecoveryConfig& recovery);
 /// The belief of an inertial unit that drives: level, heading and position as given.
 Belief<EskfState> movingStart(const UwbImuConfig& config, const Belief<Pose2>& at);
 /// The belief of one that has stood: level and gyro bias from the average.
