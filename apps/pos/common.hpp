@@ -64,5 +64,8 @@ void addMap(const Verbs& verbs);
 void addLocks(const Verbs& verbs);
 void addServe(const Verbs& verbs);
 void addVersion(const Verbs& verbs);
+void addCompletion(const Verbs& verbs);
+void addMan(const Verbs& verbs);
+void addBench(const Verbs& verbs);
 
 }  // namespace pos::app

@@ -78,6 +78,14 @@ int usage(const CLI::App& app, const CLI::ParseError& error) {
   return toInt(ExitCode::Usage);
 }
 
+/// Help speaks of verbs at every depth.
+void nameVerbs(CLI::App& app) {
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    verb->group("Verbs");
+    nameVerbs(*verb);
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Positioning for vehicles under ground: replay logs, compare estimators, see how good each answer is.",
@@ -101,7 +109,10 @@ int run(int argc, char** argv) {
   pos::app::addSimulate(verbs);
   pos::app::addServe(verbs);
   pos::app::addVersion(verbs);
-  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verb->group("Verbs");
+  pos::app::addBench(verbs);
+  pos::app::addCompletion(verbs);
+  pos::app::addMan(verbs);
+  nameVerbs(app);
   app.footer(
       "Exit codes: 0 done, 1 fault of pos, 2 command line, 3 configuration or map, 4 a --require missed,\n"
       "5 log, truth or table missing or damaged, 130 interrupted. `pos VERB --help` explains a verb.");

@@ -19,24 +19,6 @@ std::string shown(double value) {
   return text;
 }
 
-/// The benchmark's name without what its repetition added: "read_ours/iterations:1" is "read_ours".
-std::string plainName(const json& entry) {
-  const std::string name = entry.at("run_name");
-  return name.substr(0,
-                     std::min({name.find("/iterations:"), name.find("/repeats:"), name.find("/real_time")}));
-}
-
-double aggregate(const json& run, const std::string& name, const std::string& benchmark,
-                 const std::string& counter) {
-  for (const json& entry : run.at("benchmarks")) {
-    if (entry.value("aggregate_name", "") != name || plainName(entry) != benchmark) continue;
-    if (!entry.contains(counter))
-      throw std::invalid_argument("benchmark " + benchmark + " has no counter " + counter);
-    return entry.at(counter);
-  }
-  throw std::invalid_argument("no " + name + " of benchmark " + benchmark + ": run it with repetitions");
-}
-
 std::string row(const json& run, const Comparison& c) {
   const double ours = aggregate(run, "median", c.ours, c.counter);
   const double yardstick = aggregate(run, "median", c.yardstick, c.counter);
@@ -230,6 +212,23 @@ json joined(const std::vector<json>& runs) {
   }
   if (result.is_null()) throw std::invalid_argument("no runs");
   return result;
+}
+
+std::string plainName(const json& entry) {
+  const std::string name = entry.at("run_name");
+  return name.substr(0,
+                     std::min({name.find("/iterations:"), name.find("/repeats:"), name.find("/real_time")}));
+}
+
+double aggregate(const json& run, const std::string& statistic, const std::string& benchmark,
+                 const std::string& counter) {
+  for (const json& entry : run.at("benchmarks")) {
+    if (entry.value("aggregate_name", "") != statistic || plainName(entry) != benchmark) continue;
+    if (!entry.contains(counter))
+      throw std::invalid_argument("benchmark " + benchmark + " has no counter " + counter);
+    return entry.at(counter);
+  }
+  throw std::invalid_argument("no " + statistic + " of benchmark " + benchmark + ": run it with repetitions");
 }
 
 std::string machineLine(const json& run) {

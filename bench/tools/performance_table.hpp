@@ -43,6 +43,14 @@ nlohmann::json parsed(const std::string& text);
 /// one holds no benchmarks.
 nlohmann::json joined(const std::vector<nlohmann::json>& runs);
 
+/// The benchmark's name without what its repetition added: "read_ours/iterations:1" is "read_ours".
+std::string plainName(const nlohmann::json& entry);
+
+/// A statistic over the repetitions ("median", "max") of a benchmark's counter. Throws std::invalid_argument
+/// naming what is missing.
+double aggregate(const nlohmann::json& run, const std::string& statistic, const std::string& benchmark,
+                 const std::string& counter);
+
 /// "2 CPUs at 4500 MHz, ...": the machine and the load, without its name.
 std::string machineLine(const nlohmann::json& run);
 
