@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
 
 #include "common.hpp"
 #include "pos/core/error.hpp"
@@ -78,6 +79,19 @@ int usage(const CLI::App& app, const CLI::ParseError& error) {
   return toInt(ExitCode::Usage);
 }
 
+/// "INT:INT in [0 - 65535]" says INT twice, and where the words are told TEXT says nothing.
+class HelpText : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos || colon == 0) return text;
+    const std::string type = text.substr(1, colon - 1);
+    const std::string rest = text.substr(colon + 1);
+    return rest.starts_with("{") || rest.starts_with(type + " ") ? " " + rest : text;
+  }
+};
+
 /// Help speaks of verbs at every depth.
 void nameVerbs(CLI::App& app) {
   for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -92,6 +106,7 @@ int run(int argc, char** argv) {
       "pos"};
   app.require_subcommand(1);
   app.set_version_flag("--version", pos::app::version());
+  app.formatter(std::make_shared<HelpText>());
   app.get_formatter()->label("SUBCOMMAND", "VERB");
   pos::app::Voice voice;
   ExitCode code = ExitCode::Ok;

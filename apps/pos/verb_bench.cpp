@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "bench/tools/performance_table.hpp"
 #include "bench_history.hpp"
@@ -202,20 +203,27 @@ void judge(const std::vector<JudgedRatio>& ratios, const Options& options, const
                 .suggestion = "find what made them slow; where that is meant, scripts/bench --record"});
 }
 
+std::vector<JudgedRatio> ratiosOf(const Options& options, const fs::path& folder, const Voice& voice) {
+  const auto history = options.history.empty() ? std::vector<RecordedRatio>{} : readHistory(options.history);
+  if (options.quick) return options.record ? recordedRun(folder, voice) : comparedRun(folder, history, voice);
+  const json run = wholeRun(folder, voice);
+  if (!options.markdown.empty()) {
+    writeFile(options.markdown, "Machine: " + processorModel() + ", " + bench::machineLine(run) + ".\n\n" +
+                                    bench::tables(run, bench::topics()) + "\nCompiler: " + compiler() +
+                                    ", no `-march`.\n");
+  }
+  return judged(bench::medianRatios(run, bench::topics()), {}, processorModel());
+}
+
 ExitCode runBench(const Options& options, const Voice& voice) {
   const fs::path folder = benchFolder(options.programs);
-  const auto history = options.history.empty() ? std::vector<RecordedRatio>{} : readHistory(options.history);
   std::vector<JudgedRatio> ratios;
-  if (options.quick) {
-    ratios = options.record ? recordedRun(folder, voice) : comparedRun(folder, history, voice);
-  } else {
-    const json run = wholeRun(folder, voice);
-    ratios = judged(bench::medianRatios(run, bench::topics()), {}, processorModel());
-    if (!options.markdown.empty()) {
-      writeFile(options.markdown, "Machine: " + processorModel() + ", " + bench::machineLine(run) + ".\n\n" +
-                                      bench::tables(run, bench::topics()) + "\nCompiler: " + compiler() +
-                                      ", no `-march`.\n");
-    }
+  try {
+    ratios = ratiosOf(options, folder, voice);
+  } catch (const std::invalid_argument& missing) {  // a program is not there, or measures something else
+    throw DataError(Complaint{.what = missing.what(),
+                              .place = {.file = folder.string()},
+                              .suggestion = "scripts/build release --target bench"});
   }
   print(options.json ? jsonText(ratios) : table(ratios));
   if (options.history.empty()) return ExitCode::Ok;

@@ -67,6 +67,7 @@ std::vector<Ratio> bestRatios(const json& run, const std::vector<Topic>& topics,
         ratios.push_back(ratioOf(topic, c, best(run, c.ours, c.counter), best(run, c.yardstick, c.counter)));
     }
   }
+  if (ratios.size() != pairs.size()) throw std::invalid_argument("a pair to watch is in no topic");
   return ratios;
 }
 

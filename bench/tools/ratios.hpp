@@ -31,7 +31,8 @@ std::vector<QuickPair> quickPairs();
 /// The medians of a whole run, in the order of the topics. Throws std::invalid_argument for what is missing.
 std::vector<Ratio> medianRatios(const nlohmann::json& run, const std::vector<Topic>& topics);
 
-/// The shortest times of the repetitions of these pairs: what disturbs a repetition only lengthens it.
+/// The shortest times of the repetitions of these pairs: what disturbs a repetition only lengthens it. Throws
+/// std::invalid_argument for what is missing in the run or the topics.
 std::vector<Ratio> bestRatios(const nlohmann::json& run, const std::vector<Topic>& topics,
                               const std::vector<QuickPair>& pairs);
 
