@@ -96,8 +96,9 @@ TEST_P(SingleMode, IsHonestInAllFifteenStates) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SeamlessStatistics, SingleMode,
-                         ::testing::Values(World::RadioOnly, World::SatellitesOnly), [](const auto& info) {
-                           return info.param == World::RadioOnly ? "Radio" : "Satellites";
+                         ::testing::Values(World::RadioOnly, World::SatellitesOnly),
+                         [](const auto& instance) {
+                           return instance.param == World::RadioOnly ? "Radio" : "Satellites";
                          });
 
 }  // namespace
