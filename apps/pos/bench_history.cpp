@@ -59,9 +59,10 @@ std::string processorModel() {
     if (colon == std::string::npos) continue;
     const auto key = io::text::trimmed(std::string_view(line).substr(0, colon));
     const std::string value(io::text::trimmed(std::string_view(line).substr(colon + 1)));
-    if (key == "model name") model = value + model;
+    if (key == "model name") model.insert(0, value);
     if (key == "cpu family") model += ", family " + value;
-    if (key == "model" || key == "stepping") model += ", " + std::string(key) + " " + value;
+    if (key == "model") model += ", model " + value;
+    if (key == "stepping") model += ", stepping " + value;
   }
   return model.empty() ? "unknown" : model;
 }

@@ -132,8 +132,12 @@ std::string zshOption(const OptionShape& option) {
   std::string specs;
   for (const std::string& name : option.names) {
     const bool long_name = name.starts_with("--") && !option.argument.empty();
-    specs += " \\\n        " +
-             quoted((option.repeated ? "*" : "") + name + (long_name ? "=" : "") + about + action);
+    std::string spec = option.repeated ? "*" : "";
+    spec += name;
+    spec += long_name ? "=" : "";
+    spec += about;
+    spec += action;
+    specs += " \\\n        " + quoted(spec);
   }
   return specs;
 }

@@ -2,6 +2,7 @@
 /// is.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -121,12 +122,12 @@ std::vector<JudgedRatio> comparedRun(const fs::path& folder, const std::vector<R
 
 /// What is recorded: of several runs the middle one, neither a lucky nor an unlucky one.
 std::vector<JudgedRatio> recordedRun(const fs::path& folder, const Voice& voice) {
-  std::vector<std::vector<Ratio>> runs;
-  for (int i = 0; i < kTries; ++i) runs.push_back(quickRatios(folder, quickPrograms(), voice));
+  std::array<std::vector<Ratio>, kTries> runs;
+  for (auto& run : runs) run = quickRatios(folder, quickPrograms(), voice);
   std::vector<Ratio> middle;
   for (std::size_t pair = 0; pair < runs.front().size(); ++pair) {
-    std::vector<Ratio> of_pair;
-    for (const auto& run : runs) of_pair.push_back(run[pair]);
+    std::array<Ratio, kTries> of_pair;
+    std::transform(runs.begin(), runs.end(), of_pair.begin(), [&](const auto& run) { return run[pair]; });
     std::sort(of_pair.begin(), of_pair.end(),
               [](const Ratio& a, const Ratio& b) { return a.ratio < b.ratio; });
     middle.push_back(of_pair[of_pair.size() / 2]);
@@ -180,6 +181,7 @@ std::string today() {
 
 void record(const fs::path& file, const std::vector<JudgedRatio>& ratios, const std::string& date) {
   std::vector<RecordedRatio> rows;
+  rows.reserve(ratios.size());
   for (const JudgedRatio& one : ratios)
     rows.push_back({date, processorModel(), POS_COMPILER, one.ratio.pair, one.ratio.ratio});
   appendHistory(file, rows);

@@ -9,16 +9,19 @@ namespace {
 
 using nlohmann::json;
 
+[[noreturn]] void refuse(const std::string& benchmark, const std::string& what) {
+  throw std::invalid_argument("benchmark " + benchmark + " has no " + what);
+}
+
 double best(const json& run, const std::string& benchmark, const std::string& counter) {
   double least = 0.0;
   for (const json& entry : run.at("benchmarks")) {
     if (entry.contains("aggregate_name") || plainName(entry) != benchmark) continue;
-    if (!entry.contains(counter))
-      throw std::invalid_argument("benchmark " + benchmark + " has no counter " + counter);
+    if (!entry.contains(counter)) refuse(benchmark, "counter " + counter);
     const double value = entry.at(counter);
     least = least == 0.0 ? value : std::min(least, value);
   }
-  if (least <= 0.0) throw std::invalid_argument("no run of benchmark " + benchmark);
+  if (least <= 0.0) refuse(benchmark, "run");
   return least;
 }
 
@@ -51,9 +54,10 @@ std::vector<QuickPair> quickPairs() {
 std::vector<Ratio> medianRatios(const json& run, const std::vector<Topic>& topics) {
   std::vector<Ratio> ratios;
   for (const Topic& topic : topics) {
-    for (const Comparison& c : topic.comparisons)
+    for (const Comparison& c : topic.comparisons) {
       ratios.push_back(ratioOf(topic, c, aggregate(run, "median", c.ours, c.counter),
                                aggregate(run, "median", c.yardstick, c.counter)));
+    }
   }
   return ratios;
 }
