@@ -122,10 +122,11 @@ std::string_view SeamlessCore::open(std::size_t mode) {
   return event;
 }
 
-/// A mode comes back: from where the other one is, and less sure.
+/// A mode comes back: from where the other one is, and less sure. The very first one has lost nothing.
 void SeamlessCore::rejoin(std::size_t mode) {
+  const bool first = !watch_[kGnss].lastApplied() && !watch_[kUwb].lastApplied();
   beliefs_[mode] = combined();
-  beliefs_[mode].covariance *= config_->imm.rejoin_inflation;
+  if (!first) beliefs_[mode].covariance *= config_->imm.rejoin_inflation;
   if (mode == kUwb) offsets_.mix(0.0);
   mixed_ = stamp_;
 }

@@ -180,7 +180,7 @@ TEST(Seamless, TheOperatorsMaskKeepsSatellitesOutEverywhere) {
 }
 
 TEST(Seamless, AnAnchorThatKeepsReadingTooLongGetsAnOffsetOfItsOwn) {
-  const Drive drive{.until = 25.0, .gnss_until = 60.0, .sixth_anchor_long = 0.5};
+  const Drive drive{.until = 33.0, .gnss_until = 60.0, .sixth_anchor_long = 0.5};
   SeamlessConfig config = settings();
   config.uwb.robust.form = filters::RobustConfig::Form::Huber;
   const double without = told(config, drive).largest_dark;
