@@ -7,6 +7,7 @@ find_package(Boost 1.74 REQUIRED)                                     # libboost
 find_package(nlohmann_json 3.11 REQUIRED)                             # nlohmann-json3-dev
 find_package(CLI11 2.1 REQUIRED)                                      # libcli11-dev
 find_package(ZLIB REQUIRED)                                           # zlib1g-dev (libmrpt-obs-dev brings it)
+include(PosZstd)                                                      # libzstd-dev
 find_package(TBB 2021.8 REQUIRED)                                     # libtbb-dev
 include(PosHttplib)                                                   # libcpp-httplib-dev
 find_package(mrpt-obs 2.5 REQUIRED)                                   # libmrpt-obs-dev

@@ -9,5 +9,5 @@ install(EXPORT posTargets NAMESPACE pos:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cm
 configure_package_config_file(cmake/posConfig.cmake.in ${CMAKE_BINARY_DIR}/posConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pos)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/posConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES cmake/PosOpenCV.cmake cmake/PosGeographic.cmake ${CMAKE_BINARY_DIR}/posConfig.cmake
+install(FILES cmake/PosOpenCV.cmake cmake/PosGeographic.cmake cmake/PosZstd.cmake ${CMAKE_BINARY_DIR}/posConfig.cmake
   ${CMAKE_BINARY_DIR}/posConfigVersion.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pos)

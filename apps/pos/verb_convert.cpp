@@ -12,6 +12,7 @@
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/rawlog_reader.hpp"
 #include "pos/io/rawlog_writer.hpp"
+#include "pos/io/run_mcap.hpp"
 #include "pos/io/trajectory_io.hpp"
 
 namespace pos::app {
@@ -130,6 +131,36 @@ ExitCode convertMap(const std::string& in, const std::string& out) {
   return ExitCode::Ok;
 }
 
+struct RunOptions {
+  std::string folder;
+  std::string out;
+  std::string truth;
+  std::string map;
+};
+
+ExitCode convertRun(const RunOptions& options, const Voice& voice) {
+  io::RunExtras extras;
+  if (!options.truth.empty()) extras.truth = io::readTumTruth(options.truth);
+  if (!options.map.empty()) {
+    extras.map = io::loadMap(options.map, mrptShare(),
+                             [](const fs::path& file) { return io::loadGrid(file.string()); });
+  }
+  const std::uint64_t count = io::writeRunMcap(options.folder, options.out, extras);
+  voice.say(std::to_string(count) + " messages written to " + options.out);
+  return ExitCode::Ok;
+}
+
+void addRun(CLI::App& parent, const Verbs& verbs) {
+  CLI::App* verb = parent.add_subcommand("run", "A run folder into an MCAP file, for viewers of ROS 2");
+  auto options = std::make_shared<RunOptions>();
+  verb->add_option("folder", options->folder, "Folder that pos replay --out wrote")->required();
+  verb->add_option("--out", options->out, "MCAP file to write")->required();
+  verb->add_option("--truth", options->truth, "Reference poses (TUM), as /ground_truth/pose");
+  verb->add_option("--map", options->map, "Map, as /map/markers and as an attachment");
+  addVoice(*verb, *verbs.voice);
+  verb->callback([options, verbs] { *verbs.code = convertRun(*options, *verbs.voice); });
+}
+
 void addCsv(CLI::App& parent, const Verbs& verbs) {
   CLI::App* verb =
       parent.add_subcommand("csv", "A folder of CSV tables into log.rawlog, map.yaml and truth.tum");
@@ -171,6 +202,7 @@ void addConvert(const Verbs& verbs) {
   CLI::App* verb = verbs.app->add_subcommand("convert", "Convert logs, trajectories and maps");
   verb->require_subcommand(1);
   addCsv(*verb, verbs);
+  addRun(*verb, verbs);
 
   CLI::App* log = verb->add_subcommand("log", "Any rawlog into an observation-only rawlog or JSON lines");
   const auto logs =

@@ -111,15 +111,6 @@ void requireLater(const NumberRows& rows, Stamp stamp, const Truth& truth) {
               "a stamp after " + text::stampSeconds(truth.poses.back().stamp) + " s");
 }
 
-void requireNotEarlier(Stamp stamp, const std::vector<Estimate>& estimates, const FilePlace& place) {
-  if (estimates.empty() || stamp >= estimates.back().stamp) return;
-  throw DataError(
-      Complaint{.what = "the trajectory's stamps go back",
-                .place = place,
-                .got = text::stampSeconds(stamp) + " s",
-                .expected = "no earlier than " + text::stampSeconds(estimates.back().stamp) + " s"});
-}
-
 /// A symmetric 3x3 block from its upper triangle, row by row.
 Matrix<3, 3> symmetric(const NumberRows& rows, std::size_t first) {
   Matrix<3, 3> block;
@@ -128,12 +119,6 @@ Matrix<3, 3> symmetric(const NumberRows& rows, std::size_t first) {
     for (int j = i; j < 3; ++j) block(i, j) = block(j, i) = rows.number(at++);
   }
   return block;
-}
-
-double variance(const CsvReader& csv, std::size_t column, double unit) {
-  const double sigma = csv.number(column) * unit;
-  if (sigma < 0.0) csv.refuse(column, "a standard deviation is negative", ">= 0");
-  return sigma * sigma;
 }
 
 }  // namespace
@@ -221,43 +206,6 @@ std::vector<Estimate> readTum(const std::filesystem::path& path) {
     if (width == 20) {
       estimate.covariance.bottomRightCorner<3, 3>() = symmetric(rows, 8);
       estimate.covariance.topLeftCorner<3, 3>() = symmetric(rows, 14);
-    }
-    estimates.push_back(estimate);
-  }
-  return estimates;
-}
-
-std::vector<Estimate> readEstimateCsv(const std::filesystem::path& path) {
-  CsvReader csv(path);
-  const auto at = [&csv](const char* name) { return csv.column(name); };
-  const std::array position{at("x_m"), at("y_m"), at("z_m")};
-  const std::array attitude{at("yaw_deg"), at("pitch_deg"), at("roll_deg")};
-  // in the tangent's order
-  const std::array sigmas{at("sigma_x_m"),      at("sigma_y_m"),       at("sigma_z_m"),
-                          at("sigma_roll_deg"), at("sigma_pitch_deg"), at("sigma_yaw_deg")};
-  struct Correlation {
-    std::size_t column;
-    int i, j;
-  };
-  const std::array correlations{Correlation{at("corr_x_y"), 0, 1}, Correlation{at("corr_x_yaw"), 0, 5},
-                                Correlation{at("corr_y_yaw"), 1, 5}};
-  const std::size_t stamp_column = at("stamp_s");
-  std::vector<Estimate> estimates;
-  while (csv.next()) {
-    Estimate estimate;
-    estimate.stamp = Stamp{csv.duration(stamp_column, text::TimeUnit::Seconds)};
-    requireNotEarlier(estimate.stamp, estimates, csv.place(stamp_column));
-    const auto angle = [&](std::size_t i) { return radians(csv.number(attitude[i])); };
-    estimate.T_map_body = Pose3::fromXyzYawPitchRoll(csv.number(position[0]), csv.number(position[1]),
-                                                     csv.number(position[2]), angle(0), angle(1), angle(2));
-    Matrix<6, 6>& P = estimate.covariance;
-    for (int i = 0; i < 6; ++i) {
-      P(i, i) = variance(csv, sigmas[static_cast<std::size_t>(i)], i < 3 ? 1.0 : radians(1.0));
-    }
-    for (const auto& [column, i, j] : correlations) {
-      const double correlation = csv.number(column);
-      if (std::abs(correlation) > 1.0) csv.refuse(column, "a correlation is out of range", "-1 .. 1");
-      P(i, j) = P(j, i) = correlation * std::sqrt(P(i, i) * P(j, j));
     }
     estimates.push_back(estimate);
   }

@@ -11,10 +11,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include "pos/core/estimate.hpp"
 #include "pos/core/verdict.hpp"
+#include "pos/io/csv_table.hpp"
 #include "pos/io/frame_stamps.hpp"
 
 namespace pos::io {
@@ -32,7 +34,31 @@ Truth readIndexTruth(const std::filesystem::path& path, const FrameStamps& frame
 
 /// Trajectory in 8 columns (covariance zero) or 20.
 std::vector<Estimate> readTum(const std::filesystem::path& path);
-/// What EstimateCsvWriter wrote: the pose, the planar covariance and the variances of z, roll and pitch.
+/// What EstimateCsvWriter wrote, row by row: the pose, the planar covariance, the variances of z, roll and
+/// pitch, and the velocities with their sigmas.
+class EstimateCsvReader {
+ public:
+  explicit EstimateCsvReader(const std::filesystem::path& path);
+  /// Nothing at the end.
+  std::optional<Estimate> next();
+
+ private:
+  std::optional<PlanarTwist> twist() const;
+
+  struct Columns {
+    std::size_t stamp;
+    std::array<std::size_t, 3> position;
+    std::array<std::size_t, 3> attitude;
+    std::array<std::size_t, 6> sigmas;  // in the tangent's order
+    std::array<std::size_t, 3> correlations;
+    std::array<std::size_t, 3> rates;
+    std::array<std::size_t, 3> rate_sigmas;
+  };
+  CsvReader csv_;
+  Columns columns_;
+  std::optional<Stamp> last_;
+};
+/// All of them.
 std::vector<Estimate> readEstimateCsv(const std::filesystem::path& path);
 
 /// A text file under construction, one line at a time. Its destructor closes it; call close() to learn

@@ -1,0 +1,242 @@
+#include "ros_messages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "cdr.hpp"
+#include "pos/map/centreline.hpp"
+
+namespace pos::io::ros {
+namespace {
+
+// ---------------------------------------------------------------- definitions
+
+struct Part {
+  const char* name;
+  const char* fields;
+};
+
+constexpr Part kTime{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"};
+constexpr Part kDuration{"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"};
+constexpr Part kHeader{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"};
+constexpr Part kColour{"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"};
+constexpr Part kPoint{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"};
+constexpr Part kVector{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"};
+constexpr Part kQuaternion{"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
+constexpr Part kPose{"geometry_msgs/Pose",
+                     "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"};
+constexpr Part kPoseCovariance{"geometry_msgs/PoseWithCovariance",
+                               "geometry_msgs/Pose pose\nfloat64[36] covariance\n"};
+constexpr Part kTwist{"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"};
+constexpr Part kTwistCovariance{"geometry_msgs/TwistWithCovariance",
+                                "geometry_msgs/Twist twist\nfloat64[36] covariance\n"};
+constexpr Part kTransform{"geometry_msgs/Transform",
+                          "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"};
+constexpr Part kTransformStamped{
+    "geometry_msgs/TransformStamped",
+    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"};
+constexpr Part kKeyValue{"diagnostic_msgs/KeyValue", "string key\nstring value\n"};
+constexpr Part kStatus{"diagnostic_msgs/DiagnosticStatus",
+                       "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring "
+                       "message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n"};
+constexpr Part kMarker{
+    "visualization_msgs/Marker",
+    "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\n"
+    "geometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool "
+    "frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring text\nstring "
+    "mesh_resource\nbool mesh_use_embedded_materials\n"};
+
+RosType typeOf(const char* name, const char* fields, std::initializer_list<Part> parts) {
+  RosType type{name, fields};
+  for (const Part& part : parts)
+    type.definition += std::string(80, '=') + "\nMSG: " + part.name + "\n" + part.fields;
+  return type;
+}
+
+// ---------------------------------------------------------------- values
+
+CdrWriter& operator<<(CdrWriter& out, const Eigen::Vector3d& v) {
+  return out << v.x() << v.y() << v.z();
+}
+CdrWriter& operator<<(CdrWriter& out, const Eigen::Quaterniond& q) {
+  return out << q.x() << q.y() << q.z() << q.w();
+}
+CdrWriter& operator<<(CdrWriter& out, const Matrix<6, 6>& P) {
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) out << P(i, j);
+  }
+  return out;
+}
+CdrWriter& operator<<(CdrWriter& out, const Pose3& T) {
+  return out << T.translation << T.rotation;
+}
+
+CdrWriter& header(CdrWriter& out, Stamp stamp) {
+  const auto since = stamp.time_since_epoch();
+  const auto whole = std::chrono::floor<std::chrono::seconds>(since);
+  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(since - whole);
+  return out << static_cast<std::int32_t>(whole.count()) << static_cast<std::uint32_t>(rest.count())
+             << std::string(kMapFrame);
+}
+
+// ---------------------------------------------------------------- markers
+
+enum class Shape : std::int32_t { Sphere = 2, LineStrip = 4, Text = 9 };
+constexpr double kUnknown = 1e6;  // variance
+
+struct Marker {
+  std::string group;
+  Shape shape = Shape::Sphere;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double size = 0.5;  ///< m
+  std::array<float, 4> colour{};
+  std::vector<Eigen::Vector3d> points = {};
+  std::string text = {};
+};
+
+void put(CdrWriter& out, Stamp stamp, int id, const Marker& m) {
+  const std::int32_t add = 0;
+  header(out, stamp) << m.group << static_cast<std::int32_t>(id) << static_cast<std::int32_t>(m.shape) << add;
+  out << Pose3{m.at, Eigen::Quaterniond::Identity()} << Eigen::Vector3d(m.size, m.size, m.size);
+  for (const float channel : m.colour) out << channel;
+  out << std::int32_t{0} << std::uint32_t{0} << false;  // for ever, in the frame as it is
+  out.count(m.points.size());
+  for (const Eigen::Vector3d& point : m.points) out << point;
+  out.count(0) << m.text << std::string() << false;
+}
+
+std::vector<Eigen::Vector3d> drawn(const map::Centreline& line) {
+  constexpr double kStep = 2.0;  // m
+  const int steps = std::max(1, static_cast<int>(std::ceil(line.length() / kStep)));
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k <= steps; ++k)
+    points.push_back(line.at(line.chainageStart() + line.length() * k / steps).p_map);
+  return points;
+}
+
+constexpr std::array<float, 4> kGrey{0.5F, 0.5F, 0.5F, 1.0F};
+constexpr std::array<float, 4> kBlue{0.1F, 0.4F, 0.9F, 1.0F};
+constexpr std::array<float, 4> kGreen{0.1F, 0.6F, 0.3F, 1.0F};
+const Eigen::Vector3d kAbove(0.0, 0.0, 1.0);  // m, a name over its object
+
+std::vector<Marker> markersOf(const map::TunnelMap& map) {
+  std::vector<Marker> all;
+  for (const map::Roadway& roadway : map.roadways) {
+    const map::Centreline line(roadway);
+    all.push_back({.group = "roadways",
+                   .shape = Shape::LineStrip,
+                   .size = 0.3,
+                   .colour = kGrey,
+                   .points = drawn(line)});
+    const double middle = 0.5 * (line.chainageStart() + line.chainageEnd());
+    all.push_back({.group = "roadway_names",
+                   .shape = Shape::Text,
+                   .at = line.at(middle).p_map + kAbove,
+                   .size = 1.5,
+                   .colour = kGrey,
+                   .text = roadway.id});
+  }
+  for (const map::Anchor& anchor : map.anchors) {
+    all.push_back({.group = "anchors", .at = anchor.p_map, .colour = kBlue});
+    all.push_back({.group = "anchor_names",
+                   .shape = Shape::Text,
+                   .at = anchor.p_map + kAbove,
+                   .size = 0.8,
+                   .colour = kBlue,
+                   .text = std::to_string(anchor.id)});
+  }
+  for (const map::Chamber& chamber : map.chambers) {
+    const map::Roadway* const roadway = map.findRoadway(chamber.place.roadway);
+    if (roadway == nullptr) continue;
+    const Eigen::Vector3d at = map::Centreline(*roadway).at(chamber.place.chainage).p_map;
+    all.push_back({.group = "chambers", .at = at, .size = 1.0, .colour = kGreen});
+    all.push_back({.group = "chamber_names",
+                   .shape = Shape::Text,
+                   .at = at + kAbove,
+                   .size = 1.0,
+                   .colour = kGreen,
+                   .text = chamber.id});
+  }
+  return all;
+}
+
+}  // namespace
+
+RosType transformsType() {
+  return typeOf("tf2_msgs/msg/TFMessage", "geometry_msgs/TransformStamped[] transforms\n",
+                {kTransformStamped, kHeader, kTime, kTransform, kVector, kQuaternion});
+}
+RosType poseType() {
+  return typeOf("geometry_msgs/msg/PoseStamped", "std_msgs/Header header\ngeometry_msgs/Pose pose\n",
+                {kHeader, kTime, kPose, kPoint, kQuaternion});
+}
+RosType odometryType() {
+  return typeOf(
+      "nav_msgs/msg/Odometry",
+      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
+      "geometry_msgs/TwistWithCovariance twist\n",
+      {kHeader, kTime, kPoseCovariance, kPose, kPoint, kQuaternion, kTwistCovariance, kTwist, kVector});
+}
+RosType statusType() {
+  return typeOf("diagnostic_msgs/msg/DiagnosticArray",
+                "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n",
+                {kHeader, kTime, kStatus, kKeyValue});
+}
+RosType markersType() {
+  return typeOf("visualization_msgs/msg/MarkerArray", "visualization_msgs/Marker[] markers\n",
+                {kMarker, kHeader, kTime, kDuration, kPose, kPoint, kQuaternion, kVector, kColour});
+}
+
+std::string transforms(Stamp stamp, const Pose3& T_map_body, const std::string& frame) {
+  CdrWriter out;
+  header(out.count(1), stamp) << frame;
+  return (out << T_map_body).bytes();
+}
+
+std::string pose(Stamp stamp, const Pose3& T_map_body) {
+  CdrWriter out;
+  return (header(out, stamp) << T_map_body).bytes();
+}
+
+std::string odometry(const Estimate& estimate, const std::string& frame) {
+  Matrix<6, 6> J = Matrix<6, 6>::Identity();
+  J.bottomRightCorner<3, 3>() = estimate.T_map_body.rotation.toRotationMatrix();
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Matrix<6, 6> twist = kUnknown * Matrix<6, 6>::Identity();
+  if (estimate.twist) {
+    const std::array<int, 3> rows{0, 1, 5};
+    linear.head<2>() = estimate.twist->rates.head<2>();
+    angular.z() = estimate.twist->rates[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j)
+        twist(rows[i], rows[j]) =
+            estimate.twist->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  CdrWriter out;
+  header(out, estimate.stamp) << frame << estimate.T_map_body
+                              << Matrix<6, 6>(J * estimate.covariance * J.transpose()) << linear << angular
+                              << twist;
+  return out.bytes();
+}
+
+std::string status(const RunEvent& event) {
+  constexpr std::uint8_t kWarn = 1;
+  CdrWriter out;
+  header(out, event.stamp).count(1) << kWarn << (event.estimator + ": " + event.kind) << event.detail
+                                    << event.sensor;
+  return out.count(0).bytes();
+}
+
+std::string markers(Stamp stamp, const map::TunnelMap& map) {
+  const std::vector<Marker> all = markersOf(map);
+  CdrWriter out;
+  out.count(all.size());
+  int id = 0;
+  for (const Marker& marker : all) put(out, stamp, id++, marker);
+  return out.bytes();
+}
+
+}  // namespace pos::io::ros
