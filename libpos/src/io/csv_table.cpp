@@ -20,13 +20,14 @@ std::unique_ptr<std::istream> opened(const std::filesystem::path& path) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& path) : input_(opened(path)), file_(path.string()) {
-  readHeader();
+CsvReader::CsvReader(const std::filesystem::path& path, CsvHeader header)
+    : input_(opened(path)), file_(path.string()) {
+  readHeader(header);
 }
 
-CsvReader::CsvReader(std::string text, std::string name)
+CsvReader::CsvReader(std::string text, std::string name, CsvHeader header)
     : input_(std::make_unique<std::istringstream>(std::move(text))), file_(std::move(name)) {
-  readHeader();
+  readHeader(header);
 }
 
 std::optional<std::size_t> CsvReader::findColumn(std::string_view name) const {
@@ -74,11 +75,16 @@ Duration CsvReader::duration(std::size_t column, text::TimeUnit unit) const {
   return *value;
 }
 
-void CsvReader::readHeader() {
-  if (!readLine()) {
+void CsvReader::readHeader(CsvHeader header) {
+  if (!readLine(header)) {
     throw DataError(Complaint{.what = "the table is empty",
                               .place = {.file = file_},
                               .expected = "a header line with the column names"});
+  }
+  if (header == CsvHeader::Commented) {
+    if (line_text_[0] != '#')
+      refuseLine(0, "the header does not start with '#'", line_text_.substr(0, 40), "# and the column names");
+    line_text_[0] = ' ';
   }
   split();
   for (const std::string_view name : cells_) {
@@ -101,12 +107,13 @@ bool CsvReader::next() {
   return true;
 }
 
-bool CsvReader::readLine() {
+bool CsvReader::readLine(CsvHeader header) {
   while (std::getline(*input_, line_text_)) {
     ++line_;
     if (line_ == 1 && line_text_.starts_with("\xEF\xBB\xBF")) line_text_.erase(0, 3);
     if (line_text_.ends_with('\r')) line_text_.pop_back();
-    if (!text::trimmed(line_text_).empty() && line_text_[0] != '#') return true;
+    const bool counts = header == CsvHeader::Commented || line_text_[0] != '#';
+    if (!text::trimmed(line_text_).empty() && counts) return true;
   }
   if (input_->bad()) {
     throw DataError(Complaint{.what = "reading stopped half-way", .place = {.file = file_, .line = line_}});

@@ -68,6 +68,12 @@ BadRows readBadRows(const Entry& at) {
   return word == "skip" ? BadRows::Skip : BadRows::Refuse;
 }
 
+CsvHeader readCsvHeader(const Entry& at) {
+  const std::string word = textOf(at, "plain or commented");
+  if (word != "plain" && word != "commented") refuse(at, "unknown word", "plain or commented");
+  return word == "commented" ? CsvHeader::Commented : CsvHeader::Plain;
+}
+
 GnssFix::Quality readQuality(const Entry& at) {
   using Quality = GnssFix::Quality;
   static const std::vector<std::pair<std::string, Quality>> kWords{{"none", Quality::None},
@@ -107,7 +113,7 @@ void readGnssOptions(const Entry& at, TableMapping& table) {
 }
 
 TableMapping readTable(const Entry& at, const TableSpec& spec, Keys allowed) {
-  allowed.insert(allowed.end(), {"file", "columns", "bad_rows"});
+  allowed.insert(allowed.end(), {"file", "columns", "bad_rows", "header"});
   const bool has_stamps = spec.fields.front().name == "stamp";
   if (has_stamps) allowed.emplace_back("stamp_shift_s");
   requireKeys(at, allowed);
@@ -118,6 +124,7 @@ TableMapping readTable(const Entry& at, const TableSpec& spec, Keys allowed) {
   table.file = textOf(need(at, "file", "the table's file name in the data folder"), "a file name");
   table.fields = readFields(need(at, "columns", "the fields of the table"), spec);
   if (const auto rows = find(at, "bad_rows")) table.bad_rows = readBadRows(*rows);
+  if (const auto header = find(at, "header")) table.header = readCsvHeader(*header);
   if (const auto shift = find(at, "stamp_shift_s")) {
     table.stamp_shift = secondsOf(*shift, std::chrono::seconds(1'000'000),
                                   "seconds within +-1e6, added to every stamp of the table");

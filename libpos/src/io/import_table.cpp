@@ -15,7 +15,7 @@ text::TimeUnit timeUnit(std::string_view unit) {
 }  // namespace
 
 ImportTable::ImportTable(const TableMapping& mapping, const std::filesystem::path& data_dir, Stamp origin)
-    : mapping_(mapping), csv_(data_dir / mapping.file), origin_(origin) {
+    : mapping_(mapping), csv_(data_dir / mapping.file, mapping.header), origin_(origin) {
   for (const FieldSource& source : mapping.fields) {
     if (source.column.empty()) continue;
     const std::size_t column = csv_.column(source.column);

@@ -78,5 +78,38 @@ TEST(CsvImport, TwoAnchorsOrTagsOfOneIdAreRefused) {
               HasSubstr("two tags"));
 }
 
+TEST(CsvImport, AFolderInTheFormatOfEurocIsReadAsItIs) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.path() / "imu0");
+  std::filesystem::create_directories(folder.path() / "state_groundtruth_estimate0");
+  folder.write("imu0/data.csv",
+               "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
+               "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\r\n"
+               "1403636579758555392,-0.099,0.147,0.028,8.17,-0.37,-2.43\r\n");
+  folder.write("state_groundtruth_estimate0/data.csv",
+               "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+               "q_RS_z []\n1403636580838555648,4.688,-1.786,0.783,0.6,0,-0.8,0\n");
+  const auto mapping = readImportMapping(POS_SOURCE_DIR "/configs/import/euroc.yaml");
+  const auto result = importCsv(mapping, folder.path());
+  const auto imu = only<ImuSample>(result);
+  EXPECT_EQ(imu.angular, Eigen::Vector3d(-0.099, 0.147, 0.028));
+  EXPECT_EQ(imu.linear, Eigen::Vector3d(8.17, -0.37, -2.43));
+  EXPECT_EQ(result.measurements[0].stamp.time_since_epoch().count(), 1403636579758555392);
+  ASSERT_TRUE(result.truth);
+  EXPECT_EQ(result.truth->poses[0].T_map_body.translation, Eigen::Vector3d(4.688, -1.786, 0.783));
+  EXPECT_NEAR(result.truth->poses[0].T_map_body.rotation.y(), -0.8, 1e-12);
+}
+
+TEST(CsvImport, ACommentedHeaderHasToBeOne) {
+  EXPECT_THAT(complaintOf<DataError>([] {
+                imported(
+                    "name: test\norigin_s: 0\nstreams:\n  - kind: odometry\n    file: a.csv\n"
+                    "    header: commented\n    columns: {" +
+                        kStamp + "distance: {column: d, unit: m}, heading: {column: h, unit: rad}}\n",
+                    "t,d,h\n0,1,0\n");
+              }),
+              ::testing::HasSubstr("does not start with '#'"));
+}
+
 }  // namespace
 }  // namespace pos::io

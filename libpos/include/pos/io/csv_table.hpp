@@ -5,6 +5,7 @@
 /// commas, blanks around a cell do not count, a cell in double quotes may hold commas and "" for a quote.
 /// Line ends are LF or CRLF; empty lines and lines that start with '#' are skipped; a byte-order mark is
 /// skipped. Everything else is a DataError with file:line:column. Decimal point only, whatever the locale.
+/// Some programs write the header itself behind a '#': CsvHeader::Commented reads those.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,12 +22,17 @@
 
 namespace pos::io {
 
+enum class CsvHeader {
+  Plain,
+  Commented,  ///< the first line starts with '#', its names follow
+};
+
 class CsvReader {
  public:
   /// Opens the file and reads its header. Throws DataError when it cannot be read or has no good header.
-  explicit CsvReader(const std::filesystem::path& path);
+  explicit CsvReader(const std::filesystem::path& path, CsvHeader header = CsvHeader::Plain);
   /// Reads `text` as if it were the file `name`.
-  CsvReader(std::string text, std::string name);
+  CsvReader(std::string text, std::string name, CsvHeader header = CsvHeader::Plain);
 
   const std::string& file() const { return file_; }
   const std::vector<std::string>& columns() const { return columns_; }
@@ -51,8 +57,8 @@ class CsvReader {
   [[noreturn]] void refuse(std::size_t column, const std::string& what, const std::string& expected) const;
 
  private:
-  void readHeader();
-  bool readLine();
+  void readHeader(CsvHeader header);
+  bool readLine(CsvHeader header = CsvHeader::Plain);
   void split();
   std::size_t quotedCell(std::size_t begin);
   std::size_t plainCell(std::size_t begin);

@@ -13,6 +13,7 @@
 #include "pos/core/error.hpp"
 #include "pos/core/measurement.hpp"
 #include "pos/core/stamp.hpp"
+#include "pos/io/csv_table.hpp"
 #include "pos/map/tunnel_map.hpp"
 
 namespace pos::io {
@@ -67,6 +68,7 @@ struct TableMapping {
   std::string sensor;  ///< label of the measurements; by default the kind
   std::vector<FieldSource> fields;
   BadRows bad_rows = BadRows::Refuse;
+  CsvHeader header = CsvHeader::Plain;
   Duration stamp_shift{0};  ///< added to every stamp of the table
   std::vector<FixCode> fix_codes;
   FilePlace place;  ///< in the mapping file
