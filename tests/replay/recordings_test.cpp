@@ -76,6 +76,26 @@ TEST_F(Recordings, LiasKeepsItsFigures) {
   expectFigures("range_odometry/lias", {replay("lias", "lias")});
 }
 
+TEST(Import, AFolderInTheFormatOfEuroc) {
+  const Bench bench;
+  fs::create_directories(bench.folder() / "mav0/imu0");
+  fs::create_directories(bench.folder() / "mav0/state_groundtruth_estimate0");
+  bench.write("mav0/imu0/data.csv",
+              "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],a_RS_S_x [m s^-2],"
+              "a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]\n1403636579758555392,-0.1,0.1,0.02,8.1,-0.3,-2.4\n"
+              "1403636579763555584,-0.1,0.1,0.02,8.1,-0.3,-2.4\n");
+  bench.write("mav0/state_groundtruth_estimate0/data.csv",
+              "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], "
+              "q_RS_z []\n1403636579763555584,4.6,-1.7,0.7,0.6,0,-0.8,0\n");
+  const RunResult run =
+      bench.pos({"convert", "csv", source("configs/import/euroc.yaml"), "--data", "mav0", "--out", "euroc"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const RunResult info = bench.pos({"info", "--json", "euroc/log.rawlog"});
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  expectFigure("import/euroc", "log", "measurements", json::parse(info.out).at("measurements").get<double>());
+  EXPECT_NE(bench.read("euroc/truth.tum").find("1403636579.763555584 4.6"), std::string::npos);
+}
+
 TEST(Table, EveryConfigurationHasItsFigures) {
   std::set<std::string> known;
   for (const Expected& row : expectedFigures()) {
