@@ -185,7 +185,7 @@ filters::Correction<M> AdditiveEkf::correctWith(const filters::Innovation<EskfSt
   // u' D(q, l) of the specification is H_theta 4 Q' and a part along q, which P does not have.
   const Eigen::Matrix<double, M, 16> H = byNumbers<M>(innovation.H, x_.q_map_body);
   const Eigen::Matrix<double, 16, M> G = P_.lazyProduct(H.transpose());
-  const auto told = judged<M>(innovation.nu, H.lazyProduct(G) + R, gate);
+  auto told = judged<M>(innovation.nu, H.lazyProduct(G) + R, gate);
   if (told.verdict != Verdict::Applied) return told;
   const Eigen::LLT<Matrix<M, M>> S(told.S);
   Eigen::Matrix<double, 16, M> K;

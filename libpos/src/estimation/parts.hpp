@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "pos/core/square.hpp"
 #include "pos/estimation/estimator.hpp"
@@ -34,8 +35,12 @@ template <class SigmaOfRow>
 void addAxes(Diagnostics& values, const std::string& stem, const std::string& unit,
              const Eigen::Vector3d& components, int row, SigmaOfRow&& sigma) {
   const char* axes = "xyz";
-  for (int i = 0; i < 3; ++i)
-    values.push_back({stem + "_" + axes[i] + "_" + unit, components[i], sigma(row + i)});
+  for (int i = 0; i < 3; ++i) {
+    std::string name = stem + "_";
+    name += axes[i];
+    name += "_" + unit;
+    values.push_back({std::move(name), components[i], sigma(row + i)});
+  }
 }
 
 /// Covariance of three like, independent components of standard deviation `sigma`.

@@ -86,7 +86,7 @@ SequentialCorrection::Expected RangeOffsets::expected(const Belief<EskfState>& b
 filters::Correction<1> RangeOffsets::take(Belief<EskfState>& belief, PoseRow row, int anchor, double R) {
   if (none()) {
     SequentialCorrection sequential(belief);
-    const auto told = sequential.take(row, R);
+    auto told = sequential.take(row, R);
     if (told.verdict == Verdict::Applied) belief = sequential.injected();
     return told;
   }

@@ -210,9 +210,10 @@ std::string odometry(const Estimate& estimate, const std::string& frame) {
     linear.head<2>() = estimate.twist->rates.head<2>();
     angular.z() = estimate.twist->rates[2];
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t j = 0; j < 3; ++j) {
         twist(rows[i], rows[j]) =
             estimate.twist->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      }
     }
   }
   CdrWriter out;

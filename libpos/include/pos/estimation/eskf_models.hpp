@@ -69,7 +69,7 @@ filters::Correction<M> correctError(Belief<EskfState>& belief,
                                     const filters::Innovation<EskfState, M>& innovation,
                                     const Matrix<M, M>& R, filters::Gate gate = {}) {
   const Eigen::Quaterniond before = belief.mean.q_map_body;
-  const filters::Correction<M> told = filters::correct(belief, innovation, R, gate);
+  filters::Correction<M> told = filters::correct(belief, innovation, R, gate);
   if (told.verdict == Verdict::Applied) {
     const Eigen::Vector3d turned = rotationVector(before.conjugate() * belief.mean.q_map_body);
     ins::turnAttitude(belief.covariance, ins::rightJacobian(turned));

@@ -149,7 +149,7 @@ ManifoldUkf::Cloud<M> ManifoldUkf::seenThrough(const Model& model) const {
 template <int M>
 filters::Correction<M> ManifoldUkf::correctWith(const Cloud<M>& cloud, const Matrix<M, M>& R,
                                                 filters::Gate gate) {
-  const auto told = judged<M>(cloud.nu, cloud.spread + R, gate);
+  auto told = judged<M>(cloud.nu, cloud.spread + R, gate);
   if (told.verdict != Verdict::Applied) return told;
   const Matrix<15, M> K = told.S.llt().solve(cloud.cross.transpose()).transpose();
   const Vector<15> d = K * told.nu;

@@ -110,7 +110,7 @@ filters::Correction<M> RangeOffsets::correctJoint(Belief<EskfState>& belief,
       belief.covariance * innovation.H.transpose() + cross_ * H_offset.transpose();
   const Eigen::Matrix<double, Eigen::Dynamic, M> G_offset =
       cross_.transpose() * innovation.H.transpose() + covariance_ * H_offset.transpose();
-  const auto told = judged<M>(innovation.nu, innovation.H * G + H_offset * G_offset + R, gate);
+  auto told = judged<M>(innovation.nu, innovation.H * G + H_offset * G_offset + R, gate);
   if (told.verdict != Verdict::Applied) return told;
   const Eigen::LLT<Matrix<M, M>> S(told.S);
   const Eigen::Matrix<double, 15, M> K = S.solve(G.transpose()).transpose();
