@@ -196,9 +196,9 @@ inline void printFigures(const std::string& title, const WheelRuns& all) {
   std::printf("%s\n%-22s %10s %10s %10s %10s %10s %10s %8s\n", title.c_str(), "", "yaw rms", "max p50",
               "max p90", "max p95", "end p90", "end min", "out s");
   for (const auto& [name, runs] : all) {
-    std::printf("%-22s %6.4f deg %9.3fm %9.3fm %9.3fm %9.3fm %9.3fm %8.1f\n", name.c_str(), rms(runs, endYawDeg),
-                quantile(runs, 0.5, maxXy), quantile(runs, 0.9, maxXy), quantile(runs, 0.95, maxXy),
-                quantile(runs, 0.9, endXy), quantile(runs, 0.0, endXy),
+    std::printf("%-22s %6.4f deg %9.3fm %9.3fm %9.3fm %9.3fm %9.3fm %8.1f\n", name.c_str(),
+                rms(runs, endYawDeg), quantile(runs, 0.5, maxXy), quantile(runs, 0.9, maxXy),
+                quantile(runs, 0.95, maxXy), quantile(runs, 0.9, endXy), quantile(runs, 0.0, endXy),
                 quantile(runs, 1.0, [](const WheelRun& r) { return r.longest_out; }));
   }
 }
