@@ -1,5 +1,6 @@
 /// The particle filter with a million particles: one thread beside two, by the clock on the wall, and its
 /// memory. A step is a motion, four ranges with the sums that a gate needs, and resampling.
+#include <algorithm>
 #include <tbb/task_arena.h>
 
 #include "mcl_scene.hpp"
@@ -30,7 +31,10 @@ void million(benchmark::State& state) {
     std::uint64_t number = 0;
     step(cloud, weights, resampler, number++);  // the buffers are there before the clock starts
     for (auto _ : state) step(cloud, weights, resampler, number++);
-    state.counters["bytes_per_particle"] = 1024.0 * growth.kb() / static_cast<double>(kMillion);
+    // Only the first of several repetitions finds no memory of an earlier one.
+    static double bytes = 0.0;
+    bytes = std::max(bytes, 1024.0 * growth.kb() / static_cast<double>(kMillion));
+    state.counters["bytes_per_particle"] = bytes;
   });
 }
 BENCHMARK(million)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
