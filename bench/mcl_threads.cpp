@@ -1,7 +1,7 @@
 /// The particle filter with a million particles: one thread beside two, by the clock on the wall, and its
 /// memory. A step is a motion, four ranges with the sums that a gate needs, and resampling.
-#include <algorithm>
 #include <tbb/task_arena.h>
+#include <algorithm>
 
 #include "mcl_scene.hpp"
 
