@@ -4,7 +4,7 @@
 
 #include "pos/core/error.hpp"
 #include "pos/eval/association.hpp"
-#include "pos/io/rawlog_reader.hpp"
+#include "pos/io/log_reader.hpp"
 #include "pos/uwb/motion_calibration.hpp"
 
 namespace pos::app {
@@ -81,8 +81,8 @@ std::optional<Eigen::Vector3d> mountOf(const DualUwbConfig& config, const Beacon
 std::vector<uwb::CalibrationSample> samplesOf(const Inputs& inputs, const DualUwbConfig& config,
                                               KnownPoses& poses) {
   std::vector<uwb::CalibrationSample> samples;
-  io::RawlogReader reader(inputs.config.log->file.string());
-  while (const auto m = reader.next()) {
+  const auto reader = io::openLog(inputs.config.log->file.string()).reader;
+  while (const auto m = reader->next()) {
     const auto* range = std::get_if<BeaconRange>(&m->reading);
     if (range == nullptr || defect(*m)) continue;
     const map::Anchor* anchor = inputs.map->findAnchor(range->anchor);

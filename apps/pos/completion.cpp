@@ -6,7 +6,7 @@ namespace pos::app {
 namespace {
 
 /// As one word in single quotes; sh and zsh end the quotes for one inside, fish takes a backslash.
-std::string quoted(const std::string& text, const char* inner = R"('\'')") {
+std::string inQuotes(const std::string& text, const char* inner = R"('\'')") {
   std::string result = "'";
   for (const char letter : text) letter == '\'' ? result += inner : result += letter;
   return result + "'";
@@ -49,7 +49,7 @@ std::vector<std::string> pathsOf(const Command& root) {
 
 std::string patterns(const std::vector<std::string>& paths) {
   std::string result;
-  for (const std::string& path : paths) result += (result.empty() ? "" : "|") + quoted(path);
+  for (const std::string& path : paths) result += (result.empty() ? "" : "|") + inQuotes(path);
   return result;
 }
 
@@ -67,17 +67,18 @@ std::string bashCase(const Command& command) {
   }
   const bool files = std::any_of(command.operands.begin(), command.operands.end(),
                                  [](const OptionShape& operand) { return operand.choices.empty(); });
-  return "    " + quoted(command.path) + ")\n      words=" + quoted(spaced(wordsOf(command))) +
-         " files=" + (files ? "yes" : "") + "\n      options=" + quoted(spaced(all)) +
-         "\n      taking=" + quoted(spaced(taking)) + "\n      numbers=" + quoted(spaced(numbers)) + " ;;\n";
+  return "    " + inQuotes(command.path) + ")\n      words=" + inQuotes(spaced(wordsOf(command))) +
+         " files=" + (files ? "yes" : "") + "\n      options=" + inQuotes(spaced(all)) +
+         "\n      taking=" + inQuotes(spaced(taking)) + "\n      numbers=" + inQuotes(spaced(numbers)) +
+         " ;;\n";
 }
 
 std::string bashValues(const Command& command) {
   std::string cases;
   for (const OptionShape& option : command.options) {
     if (option.choices.empty()) continue;
-    cases += "    " + quoted(command.path + " " + option.names.back()) + ") echo " +
-             quoted(spaced(option.choices)) + " ;;\n";
+    cases += "    " + inQuotes(command.path + " " + option.names.back()) + ") echo " +
+             inQuotes(spaced(option.choices)) + " ;;\n";
   }
   return cases;
 }
@@ -137,31 +138,31 @@ std::string zshOption(const OptionShape& option) {
     spec += long_name ? "=" : "";
     spec += about;
     spec += action;
-    specs += " \\\n        " + quoted(spec);
+    specs += " \\\n        " + inQuotes(spec);
   }
   return specs;
 }
 
 std::string zshCase(const Command& command) {
-  std::string text = "    (" + quoted(command.path) + ") _arguments -s :";
+  std::string text = "    (" + inQuotes(command.path) + ") _arguments -s :";
   for (const OptionShape& option : command.options) text += zshOption(option);
   if (!command.verbs.empty()) {
     std::string verbs;
     for (const Command& verb : command.verbs)
       verbs += " " + lastWord(verb.path) + "\\:\"" + zshText(verb.about) + "\"";
-    text += " \\\n        " + quoted(": :((" + verbs.substr(1) + "))");
+    text += " \\\n        " + inQuotes(": :((" + verbs.substr(1) + "))");
   }
   for (const OptionShape& operand : command.operands) {
     if (!command.verbs.empty()) break;
     const std::string what = operand.choices.empty() ? "_files" : "(" + spaced(operand.choices) + ")";
     text += " \\\n        " +
-            quoted(std::string(operand.repeated ? "*" : "") + ":" + operand.names.front() + ":" + what);
+            inQuotes(std::string(operand.repeated ? "*" : "") + ":" + operand.names.front() + ":" + what);
   }
   return text + " ;;\n";
 }
 
 std::string fishQuoted(const std::string& text) {
-  return quoted(withBackslash(text, "\\"), R"(\')");
+  return inQuotes(withBackslash(text, "\\"), R"(\')");
 }
 
 std::string fishOption(const std::string& condition, const OptionShape& option) {

@@ -5,10 +5,10 @@
 #include "pos/core/error.hpp"
 #include "pos/io/files.hpp"
 #include "pos/io/grid_io.hpp"
+#include "pos/io/log_reader.hpp"
 #include "pos/io/map_yaml.hpp"
 #include "pos/io/overrides.hpp"
 #include "pos/io/range_bias_yaml.hpp"
-#include "pos/io/rawlog_reader.hpp"
 #include "pos/io/scenario_yaml.hpp"
 #include "pos/io/trajectory_io.hpp"
 #include "pos/sim/simulation.hpp"
@@ -81,8 +81,8 @@ void applyCommandLine(const InputOptions& options, io::RunConfig& config) {
 
 Truth truthInLog(const fs::path& log) {
   Truth truth;
-  io::RawlogReader reader(log.string());
-  while (const auto m = reader.next()) {
+  const auto reader = io::openLog(log.string()).reader;
+  while (const auto m = reader->next()) {
     const auto* pose = std::get_if<PoseTruth>(&m->reading);
     if (pose != nullptr && (truth.poses.empty() || m->stamp > truth.poses.back().stamp)) {
       truth.poses.push_back({m->stamp, pose->T_map_body});

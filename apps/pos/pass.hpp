@@ -1,6 +1,6 @@
 #pragma once
-/// Measurements through every estimator of a configuration, one at a time, whoever hands them in: a replay, a
-/// show in a browser, a live feed.
+/// Measurements through every estimator of a configuration, whoever hands them in: a replay, a show in a
+/// browser, a live feed.
 
 #include <functional>
 #include <optional>
@@ -19,6 +19,8 @@ class Pass {
   Pass(const Inputs& inputs, const io::RunFolder* folder);
 
   void take(Measurement measurement);
+  /// The same with many, the estimators side by side in threads. The results are the same, bit by bit.
+  void takeAll(std::vector<Measurement>& measurements);
   /// No more measurements will come: those that waited for their turn go through.
   void finish();
   /// The same, then the files are closed and the records handed out.
@@ -34,17 +36,32 @@ class Pass {
   void onEvent(std::function<void(const io::RunEvent&)> ear) { on_event_ = std::move(ear); }
 
  private:
+  /// What every recorder does next.
+  struct Step {
+    enum class Kind { Take, Withhold, EndEpoch } kind;
+    Measurement measurement;  ///< of EndEpoch only the stamp
+  };
+  /// An event and the step that it came of.
+  struct Told {
+    std::size_t step;
+    io::RunEvent event;
+  };
+
   void push(Measurement measurement);
   void drain();
   void beginEpoch(Stamp stamp);
-  void takeBy(Recorder& recorder, const Measurement& measurement);
-  void note(const io::RunEvent& event);
   void endEpoch();
+  void run(bool side_by_side);
+  std::vector<Told> goThrough(Recorder& recorder) const;
+  void note(const io::RunEvent& event);
 
   const Inputs& inputs_;
   estimation::Sequencer sequencer_;
   io::RangeFaults faults_;
   std::vector<Recorder> recorders_;
+  /// Recorders that may run at the same time, each group one after the other.
+  std::vector<std::vector<std::size_t>> groups_;
+  std::vector<Step> steps_;
   std::optional<io::EventsCsvWriter> events_;
   std::function<void(const io::RunEvent&)> on_event_;
   std::optional<Stamp> epoch_;

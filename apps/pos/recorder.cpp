@@ -89,7 +89,7 @@ void Recorder::endEpoch(Stamp stamp) {
   watchSwitching(*estimate);
   if (thinned) return;
   last_ = estimate->stamp;
-  if (!ears_) record_.estimates.push_back(*estimate);
+  if (!ears_) kept_.add(*estimate);
   if (files_) {
     files_->tum.write(*estimate);
     files_->csv.write(*estimate, epoch_);
@@ -126,6 +126,8 @@ std::optional<report::NamedFigure> Recorder::sweepPicture() const {
 
 eval::EstimatorRecord Recorder::finish() {
   record_.diagnostics = estimator_->diagnostics();
+  record_.recorded = kept_.seen();
+  record_.estimates = kept_.take();
   if (watch_) record_.intervals = watch_->finish();
   if (files_) {
     files_->tum.close();

@@ -2,11 +2,13 @@
 /// Keeps what one estimator said during a replay: on disk as it goes, and in memory for the evaluation.
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "interval_watch.hpp"
+#include "pos/core/evenly_spread.hpp"
 #include "pos/estimation/estimator.hpp"
 #include "pos/eval/run_summary.hpp"
 #include "pos/io/run_folder.hpp"
@@ -36,6 +38,9 @@ class Recorder {
   Recorder(Recorder&&) = default;
 
   void openFiles(const io::RunFolder& folder);
+  /// In memory keeps evenly spread estimates only, at most this many: enough to draw, where there is no truth
+  /// to judge all of them by. The files hold all.
+  void keepAtMost(std::size_t estimates) { kept_ = EvenlySpread<Estimate>(estimates); }
   /// Also sums the NIS of applied readings on a campaign's grid.
   void sumNisOn(const eval::TimeGrid& grid) { record_.nis.emplace(grid); }
   /// Also says in which lock intervals the vehicle is, and aids the estimator as configured; before
@@ -75,6 +80,7 @@ class Recorder {
   std::optional<RecorderEars> ears_;
   SweepPictures pictures_;
   std::optional<Stamp> last_;  ///< of the estimate recorded last
+  EvenlySpread<Estimate> kept_{std::numeric_limits<std::size_t>::max()};
   Duration shortest_step_{};
   io::EpochVerdicts epoch_{};
 };

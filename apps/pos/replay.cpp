@@ -8,7 +8,18 @@
 namespace pos::app {
 namespace {
 
-constexpr std::uint64_t kProgressEvery = 1024;
+constexpr std::size_t kBatch = 1024;  // measurements between two looks at the progress
+
+/// The next measurements of the source; false at its end.
+bool fill(std::vector<Measurement>& batch, Source& source) {
+  batch.clear();
+  while (batch.size() < kBatch) {
+    auto measurement = source.next();
+    if (!measurement) break;
+    batch.push_back(std::move(*measurement));
+  }
+  return !batch.empty();
+}
 
 /// The truth without the first `skip` seconds, which are not judged.
 Truth judged(Truth truth, double skip) {
@@ -48,9 +59,11 @@ Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progr
   const std::unique_ptr<Source> source = openSource(inputs);
   std::uint64_t measurements = 0;
   bool interrupted = false;
-  while (auto measurement = source->next()) {
-    pass.take(std::move(*measurement));
-    if (++measurements % kProgressEvery == 0 && !progress(measurements, pass.reached())) {
+  std::vector<Measurement> batch;
+  while (fill(batch, *source)) {
+    measurements += batch.size();
+    pass.takeAll(batch);
+    if (!progress(measurements, pass.reached())) {
       interrupted = true;
       break;
     }
@@ -59,6 +72,7 @@ Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progr
   result.measurements = measurements;
   result.interrupted = interrupted;
   result.tally = source->tally();
+  result.source_note = source->note();
   return result;
 }
 

@@ -7,7 +7,7 @@
 #include "inputs.hpp"
 #include "interval_watch.hpp"
 #include "pos/eval/run_summary.hpp"
-#include "pos/io/rawlog_reader.hpp"
+#include "pos/io/log_reader.hpp"
 #include "pos/io/run_folder.hpp"
 #include "pos/report/html.hpp"
 
@@ -21,6 +21,7 @@ struct Replayed {
   std::uint64_t measurements = 0;
   io::LogEnd log_end;
   io::LogTally tally;
+  std::string source_note = {};  ///< of how the log was read
   bool interrupted = false;
   std::vector<report::NamedFigure> pictures = {};        ///< of single readings, for the report
   std::shared_ptr<const IntervalGround> intervals = {};  ///< null where intervals are not evaluated

@@ -1,5 +1,6 @@
 #include "serve_recorded.hpp"
 
+#include "pos/core/evenly_spread.hpp"
 #include "pos/io/csv_table.hpp"
 #include "pos/io/text.hpp"
 #include "pos/io/trajectory_io.hpp"
@@ -9,19 +10,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Totals> totalsIn(const fs::path& file) {
+std::vector<Estimate> estimatesIn(const fs::path& file, std::size_t most) {
+  io::EstimateCsvReader rows(file);
+  EvenlySpread<Estimate> estimates(most);
+  while (const auto row = rows.next()) estimates.add(*row);
+  return estimates.take();
+}
+
+std::vector<Totals> totalsIn(const fs::path& file, std::size_t most) {
   io::CsvReader table(file);
   std::array<std::size_t, kVerdicts.size()> columns{};
   for (const Verdict verdict : kVerdicts)
     columns[static_cast<std::size_t>(verdict)] = table.column(name(verdict));
-  std::vector<Totals> totals;
+  EvenlySpread<Totals> totals(most);
   Totals sum{};
   while (table.next()) {
     for (std::size_t i = 0; i < columns.size(); ++i)
       sum[i] += static_cast<std::uint64_t>(table.integer(columns[i]));
-    totals.push_back(sum);
+    totals.add(sum);
   }
-  return totals;
+  return totals.take();
 }
 
 interval::MatchState stateOf(std::string_view word) {
@@ -36,10 +44,10 @@ class PlaceReader {
  public:
   PlaceReader(const fs::path& file, const serve::Names& names) : table_(file), names_(names) {}
 
-  std::vector<interval::IntervalBelief> all() {
-    std::vector<interval::IntervalBelief> places;
-    while (table_.next()) places.push_back(row());
-    return places;
+  std::vector<interval::IntervalBelief> read(std::size_t most) {
+    EvenlySpread<interval::IntervalBelief> places(most);
+    while (table_.next()) places.add(row());
+    return places.take();
   }
 
  private:
@@ -94,13 +102,14 @@ class PlaceReader {
 
 }  // namespace
 
-Recorded recordedIn(const fs::path& folder, const std::string& estimator, const serve::Names& names) {
+Recorded recordedIn(const fs::path& folder, const std::string& estimator, const serve::Names& names,
+                    std::size_t most) {
   Recorded recorded;
   const fs::path csv = folder / (estimator + ".csv");
-  recorded.estimates = io::readEstimateCsv(csv);
-  recorded.totals = totalsIn(csv);
+  recorded.estimates = estimatesIn(csv, most);
+  recorded.totals = totalsIn(csv, most);
   const fs::path intervals = folder / (estimator + ".intervals.csv");
-  if (fs::exists(intervals)) recorded.places = PlaceReader(intervals, names).all();
+  if (fs::exists(intervals)) recorded.places = PlaceReader(intervals, names).read(most);
   return recorded;
 }
 

@@ -22,9 +22,10 @@ struct Recorded {
   std::vector<interval::IntervalBelief> places;
 };
 
-/// From <estimator>.csv and, where it is there, <estimator>.intervals.csv. Throws DataError.
+/// From <estimator>.csv and, where it is there, <estimator>.intervals.csv: of each at most `most` rows,
+/// evenly spread. Throws DataError.
 Recorded recordedIn(const std::filesystem::path& folder, const std::string& estimator,
-                    const serve::Names& names);
+                    const serve::Names& names, std::size_t most);
 
 /// The element whose stamp is the last at or before `stamp`, or null.
 template <class Element>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "pos/core/error.hpp"
@@ -44,9 +45,10 @@ Inputs inputsOf(const fs::path& folder, const Voice& voice) {
 class RunShow final : public Session {
  public:
   RunShow(const fs::path& folder, const Inputs& inputs, const std::optional<LockedVehicle>& vehicle,
-          const Clock& clock)
+          const Clock& clock, std::size_t most_rows)
       : folder_(folder),
         clock_(clock),
+        most_rows_(most_rows),
         stage_(sceneryOf(inputs, serve::Mode::Run, vehicle)),
         playhead_(Stamp{}) {
     setMapFile(inputs);
@@ -102,7 +104,7 @@ class RunShow final : public Session {
     std::optional<Stamp> last;
     for (std::size_t i = 0; i < stage_.scenery().estimators.size(); ++i) {
       const std::string& name = stage_.scenery().estimators[i].name;
-      recorded_.push_back(recordedIn(folder_, name, stage_.scenery().names));
+      recorded_.push_back(recordedIn(folder_, name, stage_.scenery().names, most_rows_));
       const Recorded& recorded = recorded_.back();
       for (const Estimate& estimate : recorded.estimates) {
         const auto* place = latest(recorded.places, estimate.stamp);
@@ -157,6 +159,7 @@ class RunShow final : public Session {
 
   fs::path folder_;
   Clock clock_;
+  std::size_t most_rows_;
   Stage stage_;
   std::vector<Recorded> recorded_;
   std::mutex mutex_;
@@ -192,11 +195,13 @@ void refuseInThisMode(const std::string& what) {
 
 std::unique_ptr<Session> runSession(const std::string& folder, const std::optional<LockedVehicle>& vehicle,
                                     const Clock& clock, const Voice& voice) {
-  return std::make_unique<RunShow>(folder, inputsOf(folder, voice), vehicle, clock);
+  return std::make_unique<RunShow>(folder, inputsOf(folder, voice), vehicle, clock,
+                                   std::numeric_limits<std::size_t>::max());
 }
 
-std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock) {
-  return std::make_unique<RunShow>(folder, inputs, std::nullopt, clock);
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, std::size_t most_rows) {
+  return std::make_unique<RunShow>(
+      folder, inputs, std::nullopt, [] { return Duration{}; }, most_rows);
 }
 
 std::unique_ptr<Session> mapSession(const std::string& map) {

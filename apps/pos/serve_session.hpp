@@ -48,8 +48,9 @@ class Session {
 /// `vehicle` shows the locks along its route.
 std::unique_ptr<Session> runSession(const std::string& folder, const std::optional<LockedVehicle>& vehicle,
                                     const Clock& clock, const Voice& voice);
-/// The same where the inputs of the run are at hand.
-std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, const Clock& clock);
+/// The same where the inputs of the run are at hand, for a look at it without a clock, with at most so many
+/// evenly spread rows of each estimator in memory.
+std::unique_ptr<Session> runSession(const std::string& folder, const Inputs& inputs, std::size_t most_rows);
 
 struct ReplayOptions {
   bool play = false;                          ///< begins by itself

@@ -7,13 +7,14 @@ namespace {
 
 class Recording : public Source {
  public:
-  explicit Recording(const std::filesystem::path& file) : reader_(file.string()) {}
-  std::optional<Measurement> next() override { return reader_.next(); }
-  io::LogEnd end() const override { return reader_.end(); }
-  io::LogTally tally() const override { return reader_.tally(); }
+  explicit Recording(const std::filesystem::path& file) : log_(io::openLog(file.string())) {}
+  std::optional<Measurement> next() override { return log_.reader->next(); }
+  io::LogEnd end() const override { return log_.reader->end(); }
+  io::LogTally tally() const override { return log_.reader->tally(); }
+  std::string note() const override { return log_.note; }
 
  private:
-  io::RawlogReader reader_;
+  io::OpenedLog log_;
 };
 
 class Simulated : public Source {

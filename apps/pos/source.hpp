@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "inputs.hpp"
-#include "pos/io/rawlog_reader.hpp"
+#include "pos/io/log_reader.hpp"
 
 namespace pos::app {
 
@@ -23,6 +23,8 @@ class Source {
   /// How it ended; valid once next() returned nothing.
   virtual io::LogEnd end() const = 0;
   virtual io::LogTally tally() const = 0;
+  /// What the user should know of how the source is read; mostly empty.
+  virtual std::string note() const { return {}; }
 };
 
 /// What the configuration names. The inputs have to outlive it.

@@ -28,8 +28,8 @@ struct Options {
 std::vector<eval::TimedPosition> satellitePath(const std::filesystem::path& log) {
   std::vector<eval::TimedPosition> path;
   std::optional<map::LocalFrame> frame;
-  io::RawlogReader reader(log.string());
-  while (const auto m = reader.next()) {
+  const auto reader = io::openLog(log.string()).reader;
+  while (const auto m = reader->next()) {
     const auto* fix = std::get_if<GnssFix>(&m->reading);
     if (fix == nullptr || fix->quality == GnssFix::Quality::None) continue;
     if (!frame) frame.emplace(map::GeodeticOrigin{fix->latitude, fix->longitude, fix->altitude, 0.0});

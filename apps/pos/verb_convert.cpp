@@ -1,17 +1,16 @@
 /// `pos convert`: from other people's files into ours, and out again.
 
-#include <functional>
 #include <memory>
 
 #include "common.hpp"
+#include "convert_log.hpp"
 #include "pos/core/error.hpp"
 #include "pos/io/beacon_map_io.hpp"
 #include "pos/io/csv_import.hpp"
 #include "pos/io/grid_io.hpp"
-#include "pos/io/json_lines.hpp"
 #include "pos/io/map_yaml.hpp"
-#include "pos/io/rawlog_reader.hpp"
 #include "pos/io/rawlog_writer.hpp"
+#include "pos/io/run_geojson.hpp"
 #include "pos/io/run_mcap.hpp"
 #include "pos/io/trajectory_io.hpp"
 
@@ -58,41 +57,6 @@ ExitCode convertCsv(const CsvOptions& options, const Voice& voice) {
   return ExitCode::Ok;
 }
 
-/// Where measurements go, by the name of the file: JSON lines (*.jsonl, - for standard output) or a rawlog.
-using Sink = std::function<void(const Measurement&)>;
-
-std::uint64_t copied(io::RawlogReader& reader, const Sink& sink) {
-  std::uint64_t count = 0;
-  for (; auto measurement = reader.next(); ++count) sink(*measurement);
-  return count;
-}
-
-std::uint64_t copied(io::RawlogReader& reader, const std::string& out) {
-  if (out == "-") return copied(reader, [](const Measurement& m) { print(io::jsonLine(m) + "\n"); });
-  if (out.ends_with(".jsonl")) {
-    io::LineWriter lines(out);
-    const std::uint64_t count = copied(reader, [&](const Measurement& m) { lines.write(io::jsonLine(m)); });
-    lines.close();
-    return count;
-  }
-  io::RawlogWriter writer(out);
-  const std::uint64_t count = copied(reader, [&](const Measurement& m) { writer.write(m); });
-  writer.close();
-  return count;
-}
-
-ExitCode convertLog(const std::string& in, const std::string& out, const Voice& voice) {
-  io::RawlogReader reader(in);
-  const std::uint64_t count = copied(reader, out);
-  for (const auto& [what, n] : reader.skipped())
-    voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);
-  for (const auto& [what, n] : reader.refused())
-    voice.warn("not converted: " + std::to_string(n) + " x " + what);
-  voice.say(std::to_string(count) + " measurements written" + (out == "-" ? "" : " to " + out));
-  if (reader.end().damaged) voice.warn("the source is damaged: " + reader.end().message);
-  return reader.end().damaged ? ExitCode::Data : ExitCode::Ok;
-}
-
 ExitCode convertTrajectory(const std::string& in, const std::string& out, const std::string& to) {
   const auto estimates = fs::path(in).extension() == ".csv" ? io::readEstimateCsv(in) : io::readTum(in);
   const auto writeAll = [&](auto writer) {
@@ -136,7 +100,24 @@ struct RunOptions {
   std::string out;
   std::string truth;
   std::string map;
+  bool wgs84 = false;
 };
+
+/// As GeoJSON, where the file is named so.
+ExitCode convertTracks(const RunOptions& options, io::RunExtras extras, const Voice& voice) {
+  io::TrackOptions tracks{.truth = std::move(extras.truth)};
+  if (options.wgs84) {
+    tracks.origin = extras.map ? extras.map->origin : std::nullopt;
+    if (!tracks.origin) {
+      throw UsageError(Complaint{.what = "the map's place on the Earth is not known",
+                                 .key = "--wgs84",
+                                 .suggestion = "name a map that has an origin with --map"});
+    }
+  }
+  const std::uint64_t count = io::writeRunGeoJson(options.folder, options.out, tracks);
+  voice.say(std::to_string(count) + " points written to " + options.out);
+  return ExitCode::Ok;
+}
 
 ExitCode convertRun(const RunOptions& options, const Voice& voice) {
   io::RunExtras extras;
@@ -145,18 +126,25 @@ ExitCode convertRun(const RunOptions& options, const Voice& voice) {
     extras.map = io::loadMap(options.map, mrptShare(),
                              [](const fs::path& file) { return io::loadGrid(file.string()); });
   }
+  if (options.out.ends_with(".geojson")) return convertTracks(options, std::move(extras), voice);
+  if (options.wgs84)
+    throw UsageError(
+        Complaint{.what = "only tracks as GeoJSON can be in degrees", .key = "--wgs84", .got = options.out});
   const std::uint64_t count = io::writeRunMcap(options.folder, options.out, extras);
   voice.say(std::to_string(count) + " messages written to " + options.out);
   return ExitCode::Ok;
 }
 
 void addRun(CLI::App& parent, const Verbs& verbs) {
-  CLI::App* verb = parent.add_subcommand("run", "A run folder into an MCAP file, for viewers of ROS 2");
+  CLI::App* verb = parent.add_subcommand(
+      "run", "A run folder into an MCAP file for viewers of ROS 2, or its tracks into GeoJSON");
   auto options = std::make_shared<RunOptions>();
   verb->add_option("folder", options->folder, "Folder that pos replay --out wrote")->required();
-  verb->add_option("--out", options->out, "MCAP file to write")->required();
+  verb->add_option("--out", options->out, "File to write: *.geojson for the tracks alone, else MCAP")
+      ->required();
   verb->add_option("--truth", options->truth, "Reference poses (TUM), as /ground_truth/pose");
-  verb->add_option("--map", options->map, "Map, as /map/markers and as an attachment");
+  verb->add_option("--map", options->map, "Map, as /map/markers and as an attachment; for --wgs84");
+  verb->add_flag("--wgs84", options->wgs84, "GeoJSON in degrees, by the map's place on the Earth");
   addVoice(*verb, *verbs.voice);
   verb->callback([options, verbs] { *verbs.code = convertRun(*options, *verbs.voice); });
 }
@@ -203,12 +191,7 @@ void addConvert(const Verbs& verbs) {
   verb->require_subcommand(1);
   addCsv(*verb, verbs);
   addRun(*verb, verbs);
-
-  CLI::App* log = verb->add_subcommand("log", "Any rawlog into an observation-only rawlog or JSON lines");
-  const auto logs =
-      addInOut(*log, "Rawlog to read", "Rawlog to write; *.jsonl, or - for standard output: JSON lines");
-  addVoice(*log, *verbs.voice);
-  log->callback([logs, verbs] { *verbs.code = convertLog(logs->in, logs->out, *verbs.voice); });
+  addConvertLog(*verb, verbs);
 
   CLI::App* trajectory = verb->add_subcommand(
       "trajectory", "TUM, TUM with covariance, or <estimator>.csv into another of these");

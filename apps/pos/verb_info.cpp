@@ -61,10 +61,10 @@ ExitCode runInfo(const std::vector<std::string>& logs, bool as_json) {
 }  // namespace
 
 void addInfo(const Verbs& verbs) {
-  CLI::App* verb = verbs.app->add_subcommand("info", "Say what is in a rawlog");
+  CLI::App* verb = verbs.app->add_subcommand("info", "Say what is in a log");
   auto logs = std::make_shared<std::vector<std::string>>();
   auto as_json = std::make_shared<bool>(false);
-  verb->add_option("log", *logs, "Rawlog files")->required();
+  verb->add_option("log", *logs, "Logs: rawlogs, MCAP files, packed copies")->required();
   verb->add_flag("--json", *as_json, "Print JSON");
   addVoice(*verb, *verbs.voice);
   verb->callback([=] { *verbs.code = runInfo(*logs, *as_json); });

@@ -1,6 +1,9 @@
 /// `pos replay`: a log through several estimators at once, judged against the truth.
 
+#include <tbb/global_control.h>
+
 #include <memory>
+#include <optional>
 
 #include "outputs.hpp"
 #include "pos/core/error.hpp"
@@ -16,8 +19,16 @@ struct Options {
   InputOptions inputs;
   OutputOptions outputs;
   std::string interface;
+  int jobs = 0;
   bool dry_run = false;
 };
+
+/// The threads that may work at the same time, while the result lives; the one that reads ahead not counted.
+std::optional<tbb::global_control> limitTo(int jobs) {
+  if (jobs == 0) return std::nullopt;
+  return std::optional<tbb::global_control>(std::in_place, tbb::global_control::max_allowed_parallelism,
+                                            static_cast<std::size_t>(jobs));
+}
 
 void sayLeftOut(const io::LogTally& tally, const Voice& voice) {
   for (const auto& [what, count] : tally.refused)
@@ -54,6 +65,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
   const auto folder = openRunFolder(options.outputs);
   const auto viewer = folder ? viewerTemplate(options.interface) : std::nullopt;
   watchInterrupts();
+  const auto limit = limitTo(options.jobs);
   Replayed result = [&] {
     const bool knows_end = inputs.truth && inputs.truth->poses.size() > 1;
     ProgressLine line(voice, "replay",
@@ -63,6 +75,7 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
       return !interrupted();
     });
   }();
+  if (!result.source_note.empty()) voice.say(result.source_note);
   sayLeftOut(result.tally, voice);
   const eval::RunSummary summary = summaryOf(inputs, result);
   if (folder) writeRun(*folder, inputs, summary, extrasOf(inputs, result), viewer);
@@ -86,6 +99,8 @@ void addReplay(const Verbs& verbs) {
   addOutputs(*verb, options->outputs);
   verb->add_option("--interface", options->interface,
                    "Folder of the built browser interface, for viewer.html in --out");
+  verb->add_option("--jobs", options->jobs, "Estimators at the same time (default: one a core)")
+      ->check(CLI::Range(0, 4096));
   verb->add_flag("--dry-run", options->dry_run,
                  "Check everything, print the resolved configuration, run nothing");
   addVoice(*verb, *verbs.voice);

@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kPoints = 6000;  // of a track, 0.4 MB
+constexpr std::size_t kPoints = 6000;     // of a track, 0.4 MB
+constexpr std::size_t kMostRows = 16384;  // of a table, in memory, of which those points are taken
 constexpr std::size_t kMostEvents = 10'000;
 constexpr std::string_view kMark = "POS_RUN_JSON";
 
@@ -87,7 +88,7 @@ std::optional<std::string> viewerTemplate(const std::string& named) {
 }
 
 void writeViewer(const fs::path& folder, const Inputs& inputs, const std::string& page) {
-  const auto session = runSession(folder.string(), inputs, [] { return Duration{}; });
+  const auto session = runSession(folder.string(), inputs, kMostRows);
   std::string filled = page;
   filled.replace(filled.find(kMark), kMark.size(), withoutElements(runJson(*session)));
   writeFile(folder / kViewerFile, filled);

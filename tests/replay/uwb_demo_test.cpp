@@ -3,12 +3,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include "replay/figures.hpp"
 
 namespace pos::replay {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr int kSeeds = 10;
 
@@ -54,6 +57,53 @@ TEST_F(UwbDemo, SixEstimatorsKeepTheirFigures) {
 TEST_F(UwbDemo, ParticleFiltersKeepTheirFiguresOverTenSeeds) {
   expectFigures("uwb_demo/compare seeds", {replayed(bench_, {seeded("compare", "mcl_ranges")}),
                                            replayed(bench_, {seeded("compare", "mcl_scan")})});
+}
+
+TEST_F(UwbDemo, ThreadsAndAPackedCopyOfTheLogChangeNoByte) {
+  fs::copy_file(datasets() / "datasets/uwb_ro-localization_demo.rawlog", bench_.folder() / "demo.rawlog");
+  const auto run = [&](const std::string& folder, const std::string& jobs) {
+    const RunResult result =
+        bench_.pos({"replay", config("compare"), "--log", "demo.rawlog", "--out", folder, "--jobs", jobs});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  run("alone", "1");
+  run("many", "4");
+  ASSERT_EQ(bench_.pos({"convert", "log", "demo.rawlog", "--to", "cache"}).exit_code, 0);
+  EXPECT_NE(run("copy", "0").find("packed copy demo.rawlog.cache"), std::string::npos);
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(bench_.folder() / "alone")) {
+    const std::string name = entry.path().filename().string();
+    if (!name.ends_with(".tum") && !name.ends_with(".csv")) continue;
+    ++files;
+    EXPECT_EQ(bench_.read("alone/" + name), bench_.read("many/" + name)) << name;
+    EXPECT_EQ(bench_.read("alone/" + name), bench_.read("copy/" + name)) << name;
+  }
+  EXPECT_EQ(files, 13);  // two an estimator, and the events
+}
+
+TEST_F(UwbDemo, TheLogAsMcapGivesTheSameFigures) {
+  const fs::path log = datasets() / "datasets/uwb_ro-localization_demo.rawlog";
+  ASSERT_EQ(bench_.pos({"convert", "log", log.string(), "--out", "demo.mcap"}).exit_code, 0);
+  YAML::Node plain = YAML::LoadFile(config("compare"));  // a truth by index needs the rawlog
+  plain.remove("truth");
+  plain["map"] = source("maps/uwb_demo/map.yaml").string();
+  std::ostringstream plain_text;
+  plain_text << plain;
+  bench_.write("plain.yaml", plain_text.str() + "\n");
+  const auto positions = [&](const std::string& file, const std::string& folder) {
+    const RunResult run = bench_.pos({"replay", "plain.yaml", "--log", file, "--out", folder});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::vector<double> numbers;
+    std::istringstream text(bench_.read(folder + "/range_odometry.tum"));
+    for (double value = 0.0; text >> value;) numbers.push_back(value);
+    return numbers;
+  };
+  const std::vector<double> of_rawlog = positions(log.string(), "rawlog");
+  const std::vector<double> of_mcap = positions("demo.mcap", "mcap");
+  ASSERT_EQ(of_rawlog.size(), of_mcap.size());
+  ASSERT_GT(of_rawlog.size(), 1000U);
+  for (std::size_t i = 0; i < of_rawlog.size(); ++i) EXPECT_NEAR(of_rawlog[i], of_mcap[i], 1e-6) << i;
 }
 
 TEST_F(UwbDemo, AHeadingWrongByAnyAngleIsFound) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What nearly every test file includes, read once for all test programs (tests/CMakeLists.txt). Test files
-/// still include what they use: the programs that link MRPT are built without it.
+/// What nearly every test file includes, read once for all test programs (cmake/PosPrecompiled.cmake). Every
+/// file still includes what it uses.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

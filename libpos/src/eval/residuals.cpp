@@ -28,17 +28,12 @@ void ResidualCollector::Moments::add(double value) {
 
 void ResidualCollector::add(AnchorId anchor, Stamp stamp, const IngestReport& report) {
   if (report.dof != 1 || !std::isfinite(report.innovation)) return;
-  Entry& entry = entries_[anchor];
+  Entry& entry =
+      entries_.try_emplace(anchor, Entry{.samples = EvenlySpread<ResidualSample>(capacity_)}).first->second;
   const bool applied = report.verdict == Verdict::Applied;
-  const bool keep = entry.all.count % entry.stride == 0;
   entry.all.add(report.innovation);
   if (applied) entry.applied.add(report.innovation);
-  if (!keep) return;
-  entry.samples.push_back({stamp, report.innovation, report.innovation_sigma, applied});
-  if (entry.samples.size() < std::max<std::size_t>(capacity_, 2)) return;
-  for (std::size_t i = 0; 2 * i < entry.samples.size(); ++i) entry.samples[i] = entry.samples[2 * i];
-  entry.samples.resize((entry.samples.size() + 1) / 2);
-  entry.stride *= 2;
+  entry.samples.add({stamp, report.innovation, report.innovation_sigma, applied});
 }
 
 ResidualFigures ResidualCollector::figures(const Moments& moments, std::vector<double> values) {
@@ -59,12 +54,12 @@ std::vector<AnchorResiduals> ResidualCollector::summary() const {
   for (const auto& [anchor, entry] : entries_) {
     std::vector<double> every;
     std::vector<double> applied;
-    for (const ResidualSample& sample : entry.samples) {
+    for (const ResidualSample& sample : entry.samples.kept()) {
       every.push_back(sample.residual);
       if (sample.applied) applied.push_back(sample.residual);
     }
     all.push_back({anchor, figures(entry.applied, std::move(applied)), figures(entry.all, std::move(every)),
-                   entry.samples});
+                   entry.samples.kept()});
   }
   return all;
 }

@@ -140,7 +140,7 @@ EstimatorSummary summarise(const EstimatorRecord& record, const Truth* truth, St
   EstimatorSummary summary;
   summary.name = record.name;
   summary.type = record.type;
-  summary.estimates = record.estimates.size();
+  summary.estimates = std::max(record.recorded, record.estimates.size());
   summary.verdicts = record.verdicts;
   summary.residuals = record.residuals.summary();
   summary.compute = record.compute;

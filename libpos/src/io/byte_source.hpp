@@ -30,6 +30,11 @@ class ByteSource {
     if (count > end_ - begin_) fill(count);
     return {buffer_.data() + begin_, std::min(count, end_ - begin_)};
   }
+  /// Consumes `count` bytes that were seen by peek.
+  void skip(std::size_t count) {
+    begin_ += count;
+    position_ += count;
+  }
   /// True when nothing more can be read.
   bool atEnd() { return peek(1).empty(); }
   /// Bytes consumed so far, counted in the uncompressed stream.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pos/io/rawlog_reader.hpp"
+
 namespace pos::io {
 namespace {
 
@@ -53,13 +55,14 @@ double rateOf(const SensorInfo& sensor) {
 }  // namespace
 
 LogInfo logInfo(const std::string& path) {
-  RawlogReader log(path);
+  const std::unique_ptr<LogReader> log = openLogItself(path);
+  const auto* rawlog = dynamic_cast<const RawlogReader*>(log.get());
   LogInfo info;
   info.path = path;
   std::map<std::pair<std::string, std::size_t>, std::pair<SensorInfo, Stamp>> sensors;
   std::map<AnchorId, RangeCounts> anchors;
   std::optional<std::size_t> last_frame;
-  while (const auto measurement = log.next()) {
+  while (const auto measurement = log->next()) {
     const Stamp stamp = measurement->stamp;
     info.first = info.measurements == 0 ? stamp : std::min(info.first, stamp);
     info.last = info.measurements == 0 ? stamp : std::max(info.last, stamp);
@@ -73,8 +76,9 @@ LogInfo logInfo(const std::string& path) {
       anchors[range->anchor].info.id = range->anchor;
       anchors[range->anchor].add(range->range);
     }
-    if (log.format() != LogFormat::Observations && log.frame() && log.frame() != last_frame) {
-      last_frame = log.frame();
+    if (rawlog == nullptr || rawlog->format() == LogFormat::Observations) continue;
+    if (const auto frame = rawlog->frame(); frame && frame != last_frame) {
+      last_frame = frame;
       ++info.pairs;
     }
   }
@@ -83,9 +87,9 @@ LogInfo logInfo(const std::string& path) {
     info.sensors.push_back(std::move(entry.first));
   }
   for (const auto& [id, counts] : anchors) info.anchors.push_back(counts.summary());
-  info.format = log.format();
-  info.tally = log.tally();
-  info.end = log.end();
+  info.format = log->format();
+  info.tally = log->tally();
+  info.end = log->end();
   return info;
 }
 

@@ -42,6 +42,10 @@ const char* nameOf(LogFormat format) {
       return "actions and sensory frames";
     case LogFormat::Mixed:
       return "frames and free observations mixed";
+    case LogFormat::Mcap:
+      return "messages of ROS 2 (MCAP)";
+    case LogFormat::PackedCopy:
+      return "packed copy of a log";
     case LogFormat::Unknown:
       break;
   }

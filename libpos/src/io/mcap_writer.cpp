@@ -100,7 +100,8 @@ void McapWriter::putRecord(std::uint8_t opcode, const std::string& content) {
   put(record(opcode, content));
 }
 
-std::uint16_t McapWriter::addChannel(const std::string& topic, const RosType& type) {
+std::uint16_t McapWriter::addChannel(const std::string& topic, const RosType& type,
+                                     const std::map<std::string, std::string>& metadata) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
   const auto [schema, fresh] =
       schema_ids_.emplace(type.name, static_cast<std::uint16_t>(schema_ids_.size() + 1));
@@ -109,8 +110,9 @@ std::uint16_t McapWriter::addChannel(const std::string& topic, const RosType& ty
         (Fields() << schema->second << type.name << std::string("ros2msg") << type.definition).bytes);
     chunk_ += record(kSchema, schemas_.back());
   }
-  const std::uint32_t no_metadata = 0;
-  channels_.push_back((Fields() << id << schema->second << topic << std::string("cdr") << no_metadata).bytes);
+  Fields pairs;
+  for (const auto& [key, value] : metadata) pairs << key << value;
+  channels_.push_back((Fields() << id << schema->second << topic << std::string("cdr") << pairs.bytes).bytes);
   chunk_ += record(kChannel, channels_.back());
   return id;
 }

@@ -45,9 +45,6 @@ std::optional<std::string> outsideLimits(const mrpt::obs::CObservationBeaconRang
 /// From the GGA message; nothing without one. The log's covariance is the caller's affair: this one is
 /// `defaultCovariance`.
 std::optional<GnssFix> gnssFix(const mrpt::obs::CObservationGPS& observation);
-/// Horizontal 1-sigma of one unit of dilution: autonomous 3 m, differential 0.7 m, float 0.3 m, fixed 0.015
-/// m, none 100 m; vertical 1.5 times that. Usual receiver figures (u-blox and Septentrio data sheets).
-Matrix<3, 3> defaultCovariance(GnssFix::Quality quality, double dilution);
 
 /// Nothing for a scan whose pitch changes while it turns (deltaPitch): it is not planar. Beams at zero, at no
 /// number or above the sensor's maximum are marked invalid whatever the log says.

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "gnss_quality.hpp"
 #include "mrpt_conversion.hpp"
 #include "mrpt_values.hpp"
 
@@ -137,12 +138,6 @@ std::optional<std::string> outsideLimits(const CObservationBeaconRanges& observa
   if (highest > 0.0 && range.range > highest) return "range above the sensor's stated maximum";
   if (range.range > 0.0 && range.range < lowest) return "range below the sensor's stated minimum";
   return {};
-}
-
-Matrix<3, 3> defaultCovariance(GnssFix::Quality quality, double dilution) {
-  constexpr std::array<double, 5> kSigma{100.0, 3.0, 0.7, 0.3, 0.015};  // m, in the enum's order
-  const double sigma = kSigma[static_cast<std::size_t>(quality)] * dilution;
-  return Vector<3>{sigma * sigma, sigma * sigma, 2.25 * sigma * sigma}.asDiagonal();
 }
 
 std::optional<GnssFix> gnssFix(const CObservationGPS& observation) {

@@ -2,11 +2,14 @@
 
 #include <mrpt/obs/CActionCollection.h>
 
-#include "byte_source.hpp"
+#include <utility>
+
 #include "mrpt_archive.hpp"
 #include "mrpt_values.hpp"
-#include "object_guard.hpp"
+#include "object_stream.hpp"
 #include "pos/core/error.hpp"
+#include "pos/io/log_cache.hpp"
+#include "pos/io/mcap_log.hpp"
 #include "rawlog_intake.hpp"
 
 namespace pos::io {
@@ -14,14 +17,13 @@ namespace pos::io {
 using mrpt::serialization::CSerializable;
 
 struct RawlogReader::Impl {
-  explicit Impl(const std::string& path) : source(path), archive(source), intake(mrpt::Clock::now()) {}
+  Impl(const std::string& path, ReadAhead ahead) : intake(mrpt::Clock::now()), objects(path, ahead) {}
 
   void readOne();
   void stop(const std::string& damage);
 
-  ByteSource source;
-  SourceArchive archive;
   RawlogIntake intake;
+  ObjectStream objects;
   LogEnd end;
   bool done = false;
 };
@@ -34,40 +36,37 @@ void RawlogReader::Impl::stop(const std::string& damage) {
 }
 
 void RawlogReader::Impl::readOne() {
-  if (source.atEnd()) return stop(source.damage().value_or(""));
+  ObjectStream::Object* const next = objects.next();
+  if (next == nullptr) return stop(objects.damage());
+  ++end.objects;
+  end.byte = next->byte;
+  const CSerializable* object = next->object.get();
   try {
-    if (const auto outline = outlineNext(source); outline.damage) {
-      return stop(source.damage().value_or(*outline.damage));
-    }
-    CSerializable::Ptr object = archive.ReadObject();
-    ++end.objects;
-    end.byte = source.position();
     if (object != nullptr && object->GetRuntimeClass() == CLASS_ID(mrpt::obs::CActionCollection)) {
-      intake.hold(std::move(object));
+      intake.hold(std::move(next->object));
     } else {
-      intake.take(object.get());
+      intake.take(next->object.get());
     }
   } catch (const std::exception& error) {
-    stop(source.damage().value_or(messageOf(error.what())));
+    stop(messageOf(error.what()));
   }
 }
 
-RawlogReader::RawlogReader(const std::string& path) {
+RawlogReader::RawlogReader(const std::string& path, ReadAhead ahead) {
   registerMrptClasses();
-  impl_ = std::make_unique<Impl>(path);
-  if (impl_->source.atEnd() && !impl_->source.damage()) {
+  impl_ = std::make_unique<Impl>(path, ahead);
+  impl_->readOne();
+  if (impl_->end.objects > 0) return;
+  if (!impl_->end.damaged) {
     throw DataError(Complaint{
         .what = "the rawlog is empty", .place = {.file = path}, .suggestion = "record or copy it again"});
   }
-  impl_->readOne();
-  if (impl_->end.objects == 0) {
-    throw DataError(Complaint{
-        .what = "this is no MRPT rawlog, or it is damaged from its first object on",
-        .place = {.file = path},
-        .got = impl_->end.message,
-        .expected = "a .rawlog file of MRPT, plain or gzip",
-        .suggestion = "check that the path names the log and not a text, map or bag file; copy it again"});
-  }
+  throw DataError(Complaint{
+      .what = "this is no MRPT rawlog, or it is damaged from its first object on",
+      .place = {.file = path},
+      .got = impl_->end.message,
+      .expected = "a .rawlog file of MRPT, plain or gzip",
+      .suggestion = "check that the path names the log and not a text, map or bag file; copy it again"});
 }
 
 RawlogReader::RawlogReader(RawlogReader&&) noexcept = default;
@@ -99,6 +98,12 @@ const LogTally& RawlogReader::tally() const {
 }
 
 FrameStamps frameStamps(const std::string& path) {
+  if (isMcap(path) || isLogCache(path)) {
+    throw DataError(
+        Complaint{.what = "only a rawlog has the action/observation pairs that a truth by index counts",
+                  .place = {.file = path},
+                  .suggestion = "name the rawlog itself, or give the truth with stamps (TUM)"});
+  }
   RawlogReader log(path);
   RawlogReader::Impl& impl = *log.impl_;
   std::vector<Stamp> stamps;

@@ -2,83 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
-#include "cdr.hpp"
 #include "pos/map/centreline.hpp"
+#include "ros_types.hpp"
 
 namespace pos::io::ros {
 namespace {
-
-// ---------------------------------------------------------------- definitions
-
-struct Part {
-  const char* name;
-  const char* fields;
-};
-
-constexpr Part kTime{"builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"};
-constexpr Part kDuration{"builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n"};
-constexpr Part kHeader{"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"};
-constexpr Part kColour{"std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"};
-constexpr Part kPoint{"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n"};
-constexpr Part kVector{"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n"};
-constexpr Part kQuaternion{"geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
-constexpr Part kPose{"geometry_msgs/Pose",
-                     "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n"};
-constexpr Part kPoseCovariance{"geometry_msgs/PoseWithCovariance",
-                               "geometry_msgs/Pose pose\nfloat64[36] covariance\n"};
-constexpr Part kTwist{"geometry_msgs/Twist", "geometry_msgs/Vector3 linear\ngeometry_msgs/Vector3 angular\n"};
-constexpr Part kTwistCovariance{"geometry_msgs/TwistWithCovariance",
-                                "geometry_msgs/Twist twist\nfloat64[36] covariance\n"};
-constexpr Part kTransform{"geometry_msgs/Transform",
-                          "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n"};
-constexpr Part kTransformStamped{
-    "geometry_msgs/TransformStamped",
-    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n"};
-constexpr Part kKeyValue{"diagnostic_msgs/KeyValue", "string key\nstring value\n"};
-constexpr Part kStatus{"diagnostic_msgs/DiagnosticStatus",
-                       "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\nstring "
-                       "message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n"};
-constexpr Part kMarker{
-    "visualization_msgs/Marker",
-    "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\n"
-    "geometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool "
-    "frame_locked\ngeometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring text\nstring "
-    "mesh_resource\nbool mesh_use_embedded_materials\n"};
-
-RosType typeOf(const char* name, const char* fields, std::initializer_list<Part> parts) {
-  RosType type{name, fields};
-  for (const Part& part : parts)
-    type.definition += std::string(80, '=') + "\nMSG: " + part.name + "\n" + part.fields;
-  return type;
-}
-
-// ---------------------------------------------------------------- values
-
-CdrWriter& operator<<(CdrWriter& out, const Eigen::Vector3d& v) {
-  return out << v.x() << v.y() << v.z();
-}
-CdrWriter& operator<<(CdrWriter& out, const Eigen::Quaterniond& q) {
-  return out << q.x() << q.y() << q.z() << q.w();
-}
-CdrWriter& operator<<(CdrWriter& out, const Matrix<6, 6>& P) {
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) out << P(i, j);
-  }
-  return out;
-}
-CdrWriter& operator<<(CdrWriter& out, const Pose3& T) {
-  return out << T.translation << T.rotation;
-}
-
-CdrWriter& header(CdrWriter& out, Stamp stamp) {
-  const auto since = stamp.time_since_epoch();
-  const auto whole = std::chrono::floor<std::chrono::seconds>(since);
-  const auto rest = std::chrono::duration_cast<std::chrono::nanoseconds>(since - whole);
-  return out << static_cast<std::int32_t>(whole.count()) << static_cast<std::uint32_t>(rest.count())
-             << std::string(kMapFrame);
-}
 
 // ---------------------------------------------------------------- markers
 
@@ -188,10 +117,11 @@ RosType markersType() {
                 {kMarker, kHeader, kTime, kDuration, kPose, kPoint, kQuaternion, kVector, kColour});
 }
 
-std::string transforms(Stamp stamp, const Pose3& T_map_body, const std::string& frame) {
+std::string transforms(Stamp stamp, const Pose3& T_parent_frame, const std::string& frame,
+                       const std::string& parent) {
   CdrWriter out;
-  header(out.count(1), stamp) << frame;
-  return (out << T_map_body).bytes();
+  header(out.count(1), stamp, parent) << frame;
+  return (out << T_parent_frame).bytes();
 }
 
 std::string pose(Stamp stamp, const Pose3& T_map_body) {

@@ -7,10 +7,9 @@
 #include "pos/io/mcap_writer.hpp"
 #include "pos/io/run_folder.hpp"
 #include "pos/map/tunnel_map.hpp"
+#include "ros_types.hpp"
 
 namespace pos::io::ros {
-
-inline constexpr const char* kMapFrame = "map";
 
 RosType transformsType();
 RosType poseType();
@@ -18,8 +17,9 @@ RosType odometryType();
 RosType statusType();
 RosType markersType();
 
-/// tf2_msgs/TFMessage with one transform from the map to `frame`.
-std::string transforms(Stamp stamp, const Pose3& T_map_body, const std::string& frame);
+/// tf2_msgs/TFMessage with one transform, from `parent` to `frame`.
+std::string transforms(Stamp stamp, const Pose3& T_parent_frame, const std::string& frame,
+                       const std::string& parent = kMapFrame);
 /// geometry_msgs/PoseStamped in the map.
 std::string pose(Stamp stamp, const Pose3& T_map_body);
 /// nav_msgs/Odometry. Its covariance is that of the position and of a small rotation, both in map axes; a

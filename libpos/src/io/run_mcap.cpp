@@ -13,6 +13,7 @@
 #include "pos/io/text.hpp"
 #include "pos/io/trajectory_io.hpp"
 #include "ros_messages.hpp"
+#include "run_files.hpp"
 
 namespace pos::io {
 namespace {
@@ -104,24 +105,6 @@ class EventStream final : public Stream {
   CsvReader table_;
   std::uint16_t channel_;
 };
-
-/// The estimators of a run folder, by their <estimator>.tum beside <estimator>.csv.
-std::vector<std::string> estimatorsOf(const fs::path& folder) {
-  std::vector<std::string> names;
-  if (fs::is_directory(folder)) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      fs::path csv = entry.path();
-      if (csv.extension() == ".tum" && fs::exists(csv.replace_extension(".csv")))
-        names.push_back(entry.path().stem().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  if (!names.empty()) return names;
-  throw DataError(Complaint{.what = "this is no folder of a run",
-                            .place = {.file = folder.string()},
-                            .expected = "run.json, and for each estimator <name>.tum and <name>.csv",
-                            .suggestion = "make one with pos replay --out"});
-}
 
 Stream* earliest(const std::vector<std::unique_ptr<Stream>>& streams) {
   Stream* first = nullptr;

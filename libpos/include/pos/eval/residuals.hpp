@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "pos/core/evenly_spread.hpp"
 #include "pos/core/measurement.hpp"
 #include "pos/core/verdict.hpp"
 
@@ -55,10 +56,9 @@ class ResidualCollector {
     void add(double value);
   };
   struct Entry {
-    Moments applied;
-    Moments all;
-    std::uint64_t stride = 1;
-    std::vector<ResidualSample> samples;
+    Moments applied = {};
+    Moments all = {};
+    EvenlySpread<ResidualSample> samples;
   };
   static ResidualFigures figures(const Moments& moments, std::vector<double> values);
 

@@ -136,7 +136,8 @@ struct EvaluationOptions {
 struct EstimatorRecord {
   std::string name;
   std::string type;
-  std::vector<Estimate> estimates;  ///< in time order
+  std::vector<Estimate> estimates;  ///< in time order; without a truth perhaps only some of those recorded
+  std::size_t recorded = 0;         ///< how many there were; 0: as many as `estimates` holds
   VerdictCounts verdicts;
   ResidualCollector residuals;
   ComputeStats compute;

@@ -1,11 +1,11 @@
 #pragma once
-/// What is in a rawlog, gathered in one pass.
+/// What is in a log, gathered in one pass.
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "pos/io/rawlog_reader.hpp"
+#include "pos/io/log_reader.hpp"
 
 namespace pos::io {
 
@@ -43,7 +43,7 @@ struct LogInfo {
   Duration duration() const { return last - first; }
 };
 
-/// Reads the log once; memory grows with sensors and anchors, not with length. Throws as RawlogReader does.
+/// Reads the log once; memory grows with sensors and anchors, not with length. Throws as openLogItself does.
 LogInfo logInfo(const std::string& path);
 
 /// One screen for people.

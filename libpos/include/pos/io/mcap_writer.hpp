@@ -27,8 +27,10 @@ class McapWriter {
  public:
   explicit McapWriter(const std::filesystem::path& path);
 
-  /// A topic; the number that `write` wants. Types of the same name are stored once.
-  std::uint16_t addChannel(const std::string& topic, const RosType& type);
+  /// A topic; the number that `write` wants. Types of the same name are stored once. `metadata` is for
+  /// readers who know its keys.
+  std::uint16_t addChannel(const std::string& topic, const RosType& type,
+                           const std::map<std::string, std::string>& metadata = {});
   /// One message, as the CDR bytes of the channel's type.
   void write(std::uint16_t channel, Stamp stamp, const std::string& cdr);
   /// A file inside the file.
