@@ -60,7 +60,7 @@ TEST_F(UwbDemo, ParticleFiltersKeepTheirFiguresOverTenSeeds) {
 }
 
 TEST_F(UwbDemo, ThreadsAndAPackedCopyOfTheLogChangeNoByte) {
-  fs::copy_file(datasets() / "datasets/uwb_ro-localization_demo.rawlog", bench_.folder() / "demo.rawlog");
+  fs::copy_file(datasets() / "uwb_ro-localization_demo.rawlog", bench_.folder() / "demo.rawlog");
   const auto run = [&](const std::string& folder, const std::string& jobs) {
     const RunResult result =
         bench_.pos({"replay", config("compare"), "--log", "demo.rawlog", "--out", folder, "--jobs", jobs});
@@ -83,7 +83,7 @@ TEST_F(UwbDemo, ThreadsAndAPackedCopyOfTheLogChangeNoByte) {
 }
 
 TEST_F(UwbDemo, TheLogAsMcapGivesTheSameFigures) {
-  const fs::path log = datasets() / "datasets/uwb_ro-localization_demo.rawlog";
+  const fs::path log = datasets() / "uwb_ro-localization_demo.rawlog";
   ASSERT_EQ(bench_.pos({"convert", "log", log.string(), "--out", "demo.mcap"}).exit_code, 0);
   YAML::Node plain = YAML::LoadFile(config("compare"));  // a truth by index needs the rawlog
   plain.remove("truth");

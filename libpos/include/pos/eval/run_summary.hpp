@@ -137,7 +137,6 @@ struct EstimatorRecord {
   std::string name;
   std::string type;
   std::vector<Estimate> estimates;  ///< in time order; without a truth perhaps only some of those recorded
-  std::size_t recorded = 0;         ///< how many there were; 0: as many as `estimates` holds
   VerdictCounts verdicts;
   ResidualCollector residuals;
   ComputeStats compute;
@@ -146,6 +145,7 @@ struct EstimatorRecord {
   std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
   std::optional<IntervalRecord> intervals = {};      ///< where intervals are evaluated
   std::optional<SwitchingWatch> switching = {};      ///< of an estimator that chooses between models
+  std::size_t recorded = 0;                          ///< estimates there were; 0: as many as `estimates` holds
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'
