@@ -28,8 +28,6 @@ struct LogOptions {
   std::vector<std::string> mounts;
 };
 
-constexpr const char* kForms = "rawlog, jsonl, mcap, cache";
-
 /// What to write, as told or by the ending of the file's name.
 std::string formOf(const LogOptions& options) {
   if (!options.to.empty()) return options.to;
@@ -119,7 +117,9 @@ ExitCode convertLog(const LogOptions& options, const Voice& voice) {
   const std::string out =
       options.out.empty() && form == "cache" ? io::cacheBeside(options.in).string() : options.out;
   if (out.empty())
-    throw UsageError(Complaint{.what = "the file to write is not named", .key = "--out", .expected = kForms});
+    throw UsageError(Complaint{.what = "the file to write is not named",
+                               .key = "--out",
+                               .expected = "a file named *.rawlog, *.jsonl, *.mcap or *.cache"});
   const io::PackedLog result = convertedLog(options, form, out);
   for (const auto& [what, n] : result.tally.skipped)
     voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);

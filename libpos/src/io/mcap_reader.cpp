@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
@@ -73,6 +74,24 @@ std::string unpacked(std::string_view packed, std::uint64_t size) {
   return plain;
 }
 
+/// What comes out of the beginning of packed bytes.
+std::string unpackedPart(std::string_view packed) {
+  const std::unique_ptr<ZSTD_DStream, decltype(&ZSTD_freeDStream)> stream(ZSTD_createDStream(),
+                                                                          &ZSTD_freeDStream);
+  ensure(stream != nullptr, "zstd has no memory left");
+  std::string plain;
+  std::string block(ZSTD_DStreamOutSize(), '\0');
+  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  while (plain.size() < kLargest) {
+    ZSTD_outBuffer out{block.data(), block.size(), 0};
+    const std::size_t state = ZSTD_decompressStream(stream.get(), &out, &in);
+    if (ZSTD_isError(state) != 0) break;
+    plain.append(block, 0, out.pos);
+    if (state == 0 || (in.pos == in.size && out.pos < out.size)) break;
+  }
+  return plain;
+}
+
 }  // namespace
 
 McapReader::McapReader(const fs::path& path) : file_(path, std::ios::binary) {
@@ -95,7 +114,7 @@ std::optional<McapMessage> McapReader::next() {
   try {
     if (auto found = search()) return found;
   } catch (const Bad& bad) {
-    damage_ = bad.what();
+    damage_ = cut_ ? "the file is cut short" : bad.what();
   }
   done_ = true;
   return std::nullopt;
@@ -155,6 +174,7 @@ void McapReader::endOfData(std::uint64_t length) {
 }
 
 std::optional<McapReader::Record> McapReader::fileRecord() {
+  if (cut_) throw Bad("the file is cut short");
   const std::uint32_t crc_before = crc_;
   std::array<char, kRecordHead> head{};
   readBytes(head.data(), head.size());
@@ -162,7 +182,11 @@ std::optional<McapReader::Record> McapReader::fileRecord() {
   Record result;
   result.opcode = fields.number<std::uint8_t>();
   const auto length = fields.number<std::uint64_t>();
-  if (length > size_ - position_ - kRecordHead) throw Bad("the file is cut short");
+  if (const std::uint64_t left = size_ - position_ - kRecordHead; length > left) {
+    if (result.opcode != kChunk) throw Bad("the file is cut short");
+    openCutChunk(left);
+    return Record{};
+  }
   if (result.opcode == kFooter) return std::nullopt;
   if (result.opcode == kDataEnd) {
     crc_ = crc_before;
@@ -180,6 +204,20 @@ std::optional<McapReader::Record> McapReader::fileRecord() {
   }
   position_ += kRecordHead + length;
   return result;
+}
+
+void McapReader::openCutChunk(std::uint64_t size) {
+  cut_ = true;
+  content_.resize(std::min(size, kLargest));
+  readBytes(content_.data(), content_.size());
+  Fields fields(content_);
+  fields.take(2 * sizeof(std::uint64_t) + sizeof(std::uint64_t) +
+              sizeof(std::uint32_t));  // stamps, size, checksum
+  const std::string_view compression = fields.text();
+  fields.number<std::uint64_t>();  // of the records
+  if (compression.empty()) chunk_ = fields.rest();
+  if (compression == "zstd") chunk_ = unpackedPart(fields.rest());
+  rest_ = chunk_;
 }
 
 void McapReader::openChunk(std::string_view content) {

@@ -60,6 +60,8 @@ class McapReader {
   void skipBytes(std::uint64_t size);
   void endOfData(std::uint64_t length);
   void openChunk(std::string_view content);
+  /// The records that can still be had from a chunk of which the file holds only the beginning, `size` bytes.
+  void openCutChunk(std::uint64_t size);
   void addSchema(std::string_view content);
   void addChannel(std::string_view content);
   McapMessage message(std::string_view content);
@@ -75,6 +77,7 @@ class McapReader {
   std::uint64_t messages_ = 0;
   std::uint32_t crc_ = 0;  // of the bytes before the record at hand
   std::string damage_;
+  bool cut_ = false;  // the chunk at hand is the last, and not whole
   bool done_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "../../../libpos/src/io/ros_messages.hpp"
 #include "../../../libpos/src/io/ros_sensors.hpp"
 #include "pos/core/error.hpp"
+#include "pos/core/random.hpp"
 #include "pos/io/json_lines.hpp"
 #include "pos/io/log_info.hpp"
 #include "pos/io/mcap_writer.hpp"
@@ -259,6 +260,28 @@ TEST(McapLog, EveryCutIsToldAndNoFlipIsTaken) {
     replaceContent(folder.file("b.mcap"), bytes);
     const Read read = readMcap(folder.file("b.mcap"));
     EXPECT_TRUE(read.end.damaged || read.measurements.size() == expected) << i;
+  }
+}
+
+TEST(McapLog, WhatLiesBeforeACutInsideAChunkIsDelivered) {
+  const ScratchFolder folder;
+  std::vector<Measurement> many;
+  RandomStream random(3, 0);
+  for (int i = 0; i < 20'000; ++i)
+    many.push_back({at(0.01 * i), "uwb", rangeTo(i % 9, random.uniform(1.0, 99.0))});
+  writeMcap(folder.file("a.mcap"), many);
+  const std::string whole = contentOf(folder.file("a.mcap"));
+  std::size_t before = 0;
+  for (const double part : {0.05, 0.2, 0.4, 0.6, 0.8}) {
+    const auto size = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
+    replaceContent(folder.file("b.mcap"), whole.substr(0, size));
+    const Read read = readMcap(folder.file("b.mcap"));
+    EXPECT_EQ(read.end.message, "the file is cut short");
+    EXPECT_GT(read.measurements.size(), before);
+    EXPECT_GT(static_cast<double>(read.measurements.size()), 0.5 * part * 20'000);
+    for (std::size_t i = 0; i < read.measurements.size(); ++i)
+      EXPECT_EQ(jsonLine(read.measurements[i]), jsonLine(many[i]));
+    before = read.measurements.size();
   }
 }
 
