@@ -116,10 +116,11 @@ ExitCode convertLog(const LogOptions& options, const Voice& voice) {
   const std::string form = formOf(options);
   const std::string out =
       options.out.empty() && form == "cache" ? io::cacheBeside(options.in).string() : options.out;
-  if (out.empty())
+  if (out.empty()) {
     throw UsageError(Complaint{.what = "the file to write is not named",
                                .key = "--out",
                                .expected = "a file named *.rawlog, *.jsonl, *.mcap or *.cache"});
+  }
   const io::PackedLog result = convertedLog(options, form, out);
   for (const auto& [what, n] : result.tally.skipped)
     voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);

@@ -127,9 +127,10 @@ ExitCode convertRun(const RunOptions& options, const Voice& voice) {
                              [](const fs::path& file) { return io::loadGrid(file.string()); });
   }
   if (options.out.ends_with(".geojson")) return convertTracks(options, std::move(extras), voice);
-  if (options.wgs84)
+  if (options.wgs84) {
     throw UsageError(
         Complaint{.what = "only tracks as GeoJSON can be in degrees", .key = "--wgs84", .got = options.out});
+  }
   const std::uint64_t count = io::writeRunMcap(options.folder, options.out, extras);
   voice.say(std::to_string(count) + " messages written to " + options.out);
   return ExitCode::Ok;

@@ -127,7 +127,8 @@ std::optional<double> EstimatorSummary::rmseXy() const {
 }
 
 const EstimatorSummary* RunSummary::best() const {
-  const EstimatorSummary* best = estimators.empty() ? nullptr : &estimators.front();
+  if (estimators.empty()) return nullptr;
+  const EstimatorSummary* best = &estimators.front();
   for (const EstimatorSummary& candidate : estimators) {
     const auto rmse = candidate.rmseXy();
     if (rmse && (!best->rmseXy() || *rmse < *best->rmseXy())) best = &candidate;

@@ -46,10 +46,11 @@ CacheSource sourceAt(const fs::path& log, const std::string& sha256) {
 class Writer {
  public:
   Writer(fs::path path, const CacheSource& source) : path_(std::move(path)), file_(path_, std::ios::binary) {
-    if (!file_)
+    if (!file_) {
       throw DataError(Complaint{.what = "the packed copy cannot be written",
                                 .place = {.file = path_.string()},
                                 .suggestion = "check that the folder exists and may be written to"});
+    }
     file_.write(kMagic.data(), kMagic.size());
     Packer head;
     head(source.name, source.size, source.changed, source.sha256);
@@ -79,9 +80,10 @@ class Writer {
  private:
   std::uint16_t labelOf(const std::string& label) {
     const auto [found, fresh] = labels_.try_emplace(label, static_cast<std::uint16_t>(labels_.size()));
-    if (fresh && labels_.size() > kMostLabels)
+    if (fresh && labels_.size() > kMostLabels) {
       throw DataError(
           Complaint{.what = "the log has too many sensors to be packed", .place = {.file = path_.string()}});
+    }
     if (fresh) records_(kNewLabel, label);
     return found->second;
   }

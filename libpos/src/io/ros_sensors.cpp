@@ -300,9 +300,10 @@ std::string odometryMessage(const OdometryMessage& message) {
   const std::array<int, 3> rows{0, 1, 5};
   Matrix<6, 6> twist = Matrix<6, 6>::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t j = 0; j < 3; ++j) {
       twist(rows[i], rows[j]) =
           message.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
   }
   CdrWriter out;
   header(out, message.head.stamp, kOdometryFrame)
@@ -327,9 +328,10 @@ OdometryMessage odometryFrom(std::string_view cdr) {
   message.rates = {linear.x(), linear.y(), angular.z()};
   const std::array<int, 3> rows{0, 1, 5};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j)
+    for (std::size_t j = 0; j < 3; ++j) {
       message.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           of_twist(rows[i], rows[j]);
+    }
   }
   return message;
 }
