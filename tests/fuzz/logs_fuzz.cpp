@@ -3,7 +3,6 @@
 /// Build with clang: -fsanitize=fuzzer,address, linked with pos_io.
 
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -16,8 +15,8 @@
 #include <string_view>
 
 #include "../../libpos/src/io/cdr.hpp"
+#include "../../libpos/src/io/log_cache_parts.hpp"
 #include "../../libpos/src/io/mcap_reader.hpp"
-#include "../../libpos/src/io/packed.hpp"
 #include "../../libpos/src/io/ros_sensors.hpp"
 #include "pos/core/error.hpp"
 #include "pos/io/log_cache.hpp"
@@ -73,20 +72,20 @@ void readMessage(std::string_view bytes) {
 /// The bytes as records and end of a copy whose checksums are right; the first two say where the one becomes
 /// the other.
 void readCopy(const std::string& path, std::string_view bytes) {
+  using namespace pos::io;
   if (bytes.size() < 2) return;
   const std::size_t length = static_cast<std::uint8_t>(bytes[0]) + 256U * static_cast<std::uint8_t>(bytes[1]);
   bytes.remove_prefix(2);
-  const auto block = [](std::uint8_t type, std::string_view content) {
-    pos::io::Packer head;
-    const auto crc = crc32_z(0, reinterpret_cast<const unsigned char*>(content.data()), content.size());
-    head(type, static_cast<std::uint32_t>(content.size()), static_cast<std::uint32_t>(crc));
-    return head.bytes + std::string(content);
+  const auto block = [](BlockType type, std::string_view content) {
+    return packedBytes(type, static_cast<std::uint32_t>(content.size()), crcOf(content)) +
+           std::string(content);
   };
-  pos::io::Packer source;
-  source(std::string("a.rawlog"), std::uint64_t{0}, std::int64_t{0}, std::string());
+  const std::string source =
+      packedBytes(std::string("a.rawlog"), std::uint64_t{0}, std::int64_t{0}, std::string());
   const std::size_t half = std::min(length, bytes.size());
-  write(path, std::string("POSLOG\x01\n", 8) + block(1, source.bytes) + block(2, bytes.substr(0, half)) +
-                  block(3, bytes.substr(half)));
+  write(path, std::string(kCacheMagic) + block(BlockType::Head, source) +
+                  block(BlockType::Records, bytes.substr(0, half)) +
+                  block(BlockType::End, bytes.substr(half)));
   pos::io::LogCacheReader reader(path);
   readThrough(reader, false);  // a copy holds what its reader was given; estimators check again
 }

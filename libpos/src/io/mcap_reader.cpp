@@ -1,15 +1,12 @@
 #include "mcap_reader.hpp"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
-#include <stdexcept>
 #include <tuple>
-#include <type_traits>
 
+#include "packed.hpp"
 #include "pos/core/error.hpp"
 
 namespace pos::io {
@@ -17,51 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum Opcode : std::uint8_t {
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kDataEnd = 15
-};
 constexpr std::size_t kRecordHead = 9;                       // opcode and length
 constexpr std::uint64_t kLargest = std::uint64_t{1} << 28U;  // bytes of a record that is read, or of a chunk
 
 /// The file holds what the format does not allow, or what is not read here.
-class Bad : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Little-endian fields, one after the other.
-class Fields {
- public:
-  explicit Fields(std::string_view bytes) : bytes_(bytes) {}
-
-  template <class T>
-  requires std::is_integral_v<T> T number() {
-    T value{};
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
-    return value;
-  }
-  std::string_view text() { return take(number<std::uint32_t>()); }
-  std::string_view take(std::uint64_t size) {
-    if (size > bytes_.size()) throw Bad("a record ends inside a field");
-    const std::string_view taken = bytes_.substr(0, size);
-    bytes_.remove_prefix(size);
-    return taken;
-  }
-  std::string_view rest() const { return bytes_; }
-
- private:
-  std::string_view bytes_;
-};
-
-std::uint32_t crcOf(std::string_view bytes, std::uint32_t before = 0) {
-  return static_cast<std::uint32_t>(
-      crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-}
+using Bad = Unpackable;
 
 std::string unpacked(std::string_view packed, std::uint64_t size) {
   if (size > kLargest) throw Bad("a chunk of an absurd size");
@@ -123,15 +80,15 @@ std::optional<McapMessage> McapReader::next() {
 std::optional<McapMessage> McapReader::search() {
   while (const auto next = record()) {
     switch (next->opcode) {
-      case kSchema:
+      case McapRecord::Schema:
         addSchema(next->content);
         break;
-      case kChannel:
+      case McapRecord::Channel:
         addChannel(next->content);
         break;
-      case kMessage:
+      case McapRecord::Message:
         return message(next->content);
-      case kChunk:
+      case McapRecord::Chunk:
         openChunk(next->content);
         break;
       default:  // indexes, attachments, metadata: nothing that is needed here
@@ -143,12 +100,12 @@ std::optional<McapMessage> McapReader::search() {
 
 std::optional<McapReader::Record> McapReader::record() {
   if (rest_.empty()) return fileRecord();
-  Fields fields(rest_);
+  Unpacker fields(rest_);
   Record result;
-  result.opcode = fields.number<std::uint8_t>();
-  result.content = fields.take(fields.number<std::uint64_t>());
+  result.opcode = fields.value<McapRecord>();
+  result.content = fields.bytes(fields.value<std::uint64_t>());
   rest_ = fields.rest();
-  if (result.opcode == kChunk) throw Bad("a chunk inside a chunk");
+  if (result.opcode == McapRecord::Chunk) throw Bad("a chunk inside a chunk");
   return result;
 }
 
@@ -169,7 +126,7 @@ void McapReader::endOfData(std::uint64_t length) {
   content_.resize(std::min<std::uint64_t>(length, sizeof(std::uint32_t)));
   if (!file_.read(content_.data(), static_cast<std::streamsize>(content_.size())))
     throw Bad("the file is cut short");
-  const auto stated = Fields(content_).number<std::uint32_t>();
+  const auto stated = Unpacker(content_).value<std::uint32_t>();
   if (stated != 0 && stated != crc) throw Bad("the file does not match its checksum");
 }
 
@@ -178,22 +135,22 @@ std::optional<McapReader::Record> McapReader::fileRecord() {
   const std::uint32_t crc_before = crc_;
   std::array<char, kRecordHead> head{};
   readBytes(head.data(), head.size());
-  Fields fields({head.data(), head.size()});
+  Unpacker fields({head.data(), head.size()});
   Record result;
-  result.opcode = fields.number<std::uint8_t>();
-  const auto length = fields.number<std::uint64_t>();
+  result.opcode = fields.value<McapRecord>();
+  const auto length = fields.value<std::uint64_t>();
   if (const std::uint64_t left = size_ - position_ - kRecordHead; length > left) {
-    if (result.opcode != kChunk) throw Bad("the file is cut short");
+    if (result.opcode != McapRecord::Chunk) throw Bad("the file is cut short");
     openCutChunk(left);
     return Record{};
   }
-  if (result.opcode == kFooter) return std::nullopt;
-  if (result.opcode == kDataEnd) {
+  if (result.opcode == McapRecord::Footer) return std::nullopt;
+  if (result.opcode == McapRecord::DataEnd) {
     crc_ = crc_before;
     endOfData(length);
     return std::nullopt;
   }
-  const bool wanted = result.opcode >= kSchema && result.opcode <= kChunk;
+  const bool wanted = result.opcode >= McapRecord::Schema && result.opcode <= McapRecord::Chunk;
   if (wanted) {
     if (length > kLargest) throw Bad("a record of an absurd size");
     content_.resize(length);
@@ -210,23 +167,23 @@ void McapReader::openCutChunk(std::uint64_t size) {
   cut_ = true;
   content_.resize(std::min(size, kLargest));
   readBytes(content_.data(), content_.size());
-  Fields fields(content_);
-  fields.take(2 * sizeof(std::uint64_t) + sizeof(std::uint64_t) +
-              sizeof(std::uint32_t));  // stamps, size, checksum
+  Unpacker fields(content_);
+  fields.bytes(2 * sizeof(std::uint64_t) + sizeof(std::uint64_t) +
+               sizeof(std::uint32_t));  // stamps, size, checksum
   const std::string_view compression = fields.text();
-  fields.number<std::uint64_t>();  // of the records
+  fields.value<std::uint64_t>();  // of the records
   if (compression.empty()) chunk_ = fields.rest();
   if (compression == "zstd") chunk_ = unpackedPart(fields.rest());
   rest_ = chunk_;
 }
 
 void McapReader::openChunk(std::string_view content) {
-  Fields fields(content);
-  fields.take(2 * sizeof(std::uint64_t));  // its first and last stamp
-  const auto size = fields.number<std::uint64_t>();
-  const auto crc = fields.number<std::uint32_t>();
+  Unpacker fields(content);
+  fields.bytes(2 * sizeof(std::uint64_t));  // its first and last stamp
+  const auto size = fields.value<std::uint64_t>();
+  const auto crc = fields.value<std::uint32_t>();
   const std::string_view compression = fields.text();
-  const std::string_view records = fields.take(fields.number<std::uint64_t>());
+  const std::string_view records = fields.bytes(fields.value<std::uint64_t>());
   if (compression.empty()) {
     chunk_ = records;
   } else if (compression == "zstd") {
@@ -240,22 +197,22 @@ void McapReader::openChunk(std::string_view content) {
 }
 
 void McapReader::addSchema(std::string_view content) {
-  Fields fields(content);
-  const auto id = fields.number<std::uint16_t>();
+  Unpacker fields(content);
+  const auto id = fields.value<std::uint16_t>();
   const std::string_view name = fields.text();
   schemas_[id] = {std::string(name), std::string(fields.text())};
 }
 
 void McapReader::addChannel(std::string_view content) {
-  Fields fields(content);
-  const auto id = fields.number<std::uint16_t>();
+  Unpacker fields(content);
+  const auto id = fields.value<std::uint16_t>();
   if (channels_.count(id) != 0) return;  // told again, which is allowed
   McapChannel channel;
-  const auto schema = schemas_.find(fields.number<std::uint16_t>());
+  const auto schema = schemas_.find(fields.value<std::uint16_t>());
   if (schema != schemas_.end()) std::tie(channel.type, channel.schema_encoding) = schema->second;
   channel.topic = fields.text();
   channel.encoding = fields.text();
-  Fields pairs(fields.text());
+  Unpacker pairs(fields.text());
   while (!pairs.rest().empty()) {
     const std::string key(pairs.text());
     channel.metadata[key] = pairs.text();
@@ -264,15 +221,15 @@ void McapReader::addChannel(std::string_view content) {
 }
 
 McapMessage McapReader::message(std::string_view content) {
-  Fields fields(content);
+  Unpacker fields(content);
   McapMessage result;
-  result.id = fields.number<std::uint16_t>();
+  result.id = fields.value<std::uint16_t>();
   const auto channel = channels_.find(result.id);
   if (channel == channels_.end()) throw Bad("a message of a channel that was not told");
   result.channel = &channel->second;
-  fields.number<std::uint32_t>();  // its running number
-  result.logged = Stamp{Duration{static_cast<Duration::rep>(fields.number<std::uint64_t>())}};
-  fields.number<std::uint64_t>();  // when it was published
+  fields.value<std::uint32_t>();  // its running number
+  result.logged = Stamp{Duration{static_cast<Duration::rep>(fields.value<std::uint64_t>())}};
+  fields.value<std::uint64_t>();  // when it was published
   result.bytes = fields.rest();
   ++messages_;
   return result;

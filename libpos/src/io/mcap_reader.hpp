@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "mcap_parts.hpp"
 #include "pos/core/stamp.hpp"
 
 namespace pos::io {
@@ -30,8 +31,6 @@ struct McapMessage {
   std::string_view bytes;                ///< until the next message
 };
 
-inline constexpr std::string_view kMcapMagic("\x89MCAP0\r\n", 8);
-
 class McapReader {
  public:
   /// Throws DataError for a missing file and one that does not begin as an MCAP file does.
@@ -47,7 +46,7 @@ class McapReader {
 
  private:
   struct Record {
-    std::uint8_t opcode = 0;
+    McapRecord opcode{};
     std::string_view content;
   };
 

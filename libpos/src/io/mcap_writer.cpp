@@ -1,71 +1,31 @@
 #include "pos/io/mcap_writer.hpp"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
-#include <type_traits>
 
+#include "mcap_parts.hpp"
+#include "packed.hpp"
 #include "pos/core/error.hpp"
 
 namespace pos::io {
 namespace {
 
-constexpr std::string_view kMagic("\x89MCAP0\r\n", 8);
 constexpr std::size_t kChunk = std::size_t{1} << 20U;  // bytes before packing
 constexpr int kLevel = 3;                              // of zstd
 
-enum Opcode : std::uint8_t {
-  kHeader = 1,
-  kFooter,
-  kSchema,
-  kChannel,
-  kMessage,
-  kChunkRecord,
-  kMessageIndex,
-  kChunkIndex,
-  kAttachment,
-  kAttachmentIndex,
-  kStatistics,
-  kSummaryOffset = 14,
-  kDataEnd,
-};
-
-/// Little-endian fields without padding.
-class Fields {
- public:
-  template <class T>
-  requires std::is_integral_v<T> Fields& operator<<(T value) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes.append(raw, sizeof(T));
-    return *this;
-  }
-  Fields& operator<<(const std::string& text) {
-    *this << static_cast<std::uint32_t>(text.size());
-    bytes += text;
-    return *this;
-  }
-  /// A map of numbers: its length in bytes, then the pairs.
-  template <class Value>
-  Fields& operator<<(const std::map<std::uint16_t, Value>& pairs) {
-    *this << static_cast<std::uint32_t>(pairs.size() * (sizeof(std::uint16_t) + sizeof(Value)));
-    for (const auto& [key, value] : pairs) *this << key << value;
-    return *this;
-  }
-
-  std::string bytes;
-};
-
-std::string record(std::uint8_t opcode, const std::string& content) {
-  return (Fields() << opcode << static_cast<std::uint64_t>(content.size())).bytes + content;
+/// Keys and values one behind the other; as a field, with its length in bytes before it, this is the format's
+/// map.
+template <class Key, class Value>
+std::string pairsOf(const std::map<Key, Value>& map) {
+  Packer packer;
+  for (const auto& [key, value] : map) packer(key, value);
+  return std::move(packer.bytes);
 }
 
-std::uint32_t crcOf(const std::string& bytes, std::uint32_t before = 0) {
-  return static_cast<std::uint32_t>(
-      crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+std::string record(McapRecord opcode, const std::string& content) {
+  return packedBytes(opcode, static_cast<std::uint64_t>(content.size())) + content;
 }
 
 std::string packed(const std::string& bytes) {
@@ -85,8 +45,8 @@ std::uint64_t nanoseconds(Stamp stamp) {
 McapWriter::McapWriter(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
   if (!file_)
     throw DataError(Complaint{.what = "the file cannot be written", .place = {.file = path.string()}});
-  put(std::string(kMagic));
-  putRecord(kHeader, (Fields() << std::string("ros2") << std::string("pos")).bytes);
+  put(std::string(kMcapMagic));
+  putRecord(McapRecord::Header, packedBytes(std::string("ros2"), std::string("pos")));
 }
 
 void McapWriter::put(const std::string& bytes) {
@@ -96,7 +56,7 @@ void McapWriter::put(const std::string& bytes) {
   crc_ = crcOf(bytes, crc_);
 }
 
-void McapWriter::putRecord(std::uint8_t opcode, const std::string& content) {
+void McapWriter::putRecord(McapRecord opcode, const std::string& content) {
   put(record(opcode, content));
 }
 
@@ -106,14 +66,11 @@ std::uint16_t McapWriter::addChannel(const std::string& topic, const RosType& ty
   const auto [schema, fresh] =
       schema_ids_.emplace(type.name, static_cast<std::uint16_t>(schema_ids_.size() + 1));
   if (fresh) {
-    schemas_.push_back(
-        (Fields() << schema->second << type.name << std::string("ros2msg") << type.definition).bytes);
-    chunk_ += record(kSchema, schemas_.back());
+    schemas_.push_back(packedBytes(schema->second, type.name, std::string("ros2msg"), type.definition));
+    chunk_ += record(McapRecord::Schema, schemas_.back());
   }
-  Fields pairs;
-  for (const auto& [key, value] : metadata) pairs << key << value;
-  channels_.push_back((Fields() << id << schema->second << topic << std::string("cdr") << pairs.bytes).bytes);
-  chunk_ += record(kChannel, channels_.back());
+  channels_.push_back(packedBytes(id, schema->second, topic, std::string("cdr"), pairsOf(metadata)));
+  chunk_ += record(McapRecord::Channel, channels_.back());
   return id;
 }
 
@@ -121,7 +78,7 @@ void McapWriter::write(std::uint16_t channel, Stamp stamp, const std::string& cd
   const std::uint64_t ns = nanoseconds(stamp);
   const auto sequence = static_cast<std::uint32_t>(++counts_[channel]);
   entries_[channel].push_back({ns, chunk_.size()});
-  chunk_ += record(kMessage, (Fields() << channel << sequence << ns << ns).bytes + cdr);
+  chunk_ += record(McapRecord::Message, packedBytes(channel, sequence, ns, ns) + cdr);
   if (chunk_.size() >= kChunk) closeChunk();
 }
 
@@ -139,17 +96,15 @@ void McapWriter::closeChunk() {
   chunk.start = position_;
   chunk.plain = chunk_.size();
   chunk.packed = records.size();
-  putRecord(kChunkRecord, (Fields() << chunk.first << chunk.last << chunk.plain << crcOf(chunk_)
-                                    << std::string("zstd") << chunk.packed)
-                                  .bytes +
-                              records);
+  putRecord(McapRecord::Chunk, packedBytes(chunk.first, chunk.last, chunk.plain, crcOf(chunk_),
+                                           std::string("zstd"), chunk.packed) +
+                                   records);
   chunk.length = position_ - chunk.start;
   for (const auto& [channel, entries] : entries_) {
     chunk.indexes[channel] = position_;
-    Fields index;
-    index << channel << static_cast<std::uint32_t>(entries.size() * sizeof(Entry));
-    for (const Entry& entry : entries) index << entry.stamp << entry.offset;
-    putRecord(kMessageIndex, index.bytes);
+    Packer index;
+    for (const Entry& entry : entries) index(entry.stamp, entry.offset);
+    putRecord(McapRecord::MessageIndex, packedBytes(channel, index.bytes));
   }
   chunk.indexes_length = position_ - chunk.start - chunk.length;
   chunks_.push_back(chunk);
@@ -162,31 +117,29 @@ void McapWriter::attach(const std::string& name, const std::string& media_type, 
   const std::uint64_t ns = nanoseconds(stamp);
   const std::uint64_t start = position_;
   const auto size = static_cast<std::uint64_t>(bytes.size());
-  std::string content = (Fields() << ns << ns << name << media_type << size).bytes + bytes;
-  content += (Fields() << crcOf(content)).bytes;
-  putRecord(kAttachment, content);
-  attachments_.push_back(
-      (Fields() << start << position_ - start << ns << ns << size << name << media_type).bytes);
+  std::string content = packedBytes(ns, ns, name, media_type, size) + bytes;
+  content += packedBytes(crcOf(content));
+  putRecord(McapRecord::Attachment, content);
+  attachments_.push_back(packedBytes(start, position_ - start, ns, ns, size, name, media_type));
 }
 
 /// Everything between the data and the footer; it will begin at `start`.
 std::string McapWriter::summary(std::uint64_t start) {
   std::string all;
   std::string offsets;
-  const auto group = [&](Opcode opcode, const std::vector<std::string>& contents) {
+  const auto group = [&](McapRecord opcode, const std::vector<std::string>& contents) {
     if (contents.empty()) return;
     const std::uint64_t begin = start + all.size();
     for (const std::string& content : contents) all += record(opcode, content);
     const auto length = static_cast<std::uint64_t>(start + all.size() - begin);
-    offsets += record(kSummaryOffset, (Fields() << std::uint8_t{opcode} << begin << length).bytes);
+    offsets += record(McapRecord::SummaryOffset, packedBytes(opcode, begin, length));
   };
   std::vector<std::string> chunk_indexes;
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t last = 0;
   for (const ChunkEntry& c : chunks_) {
-    chunk_indexes.push_back((Fields() << c.first << c.last << c.start << c.length << c.indexes
-                                      << c.indexes_length << std::string("zstd") << c.packed << c.plain)
-                                .bytes);
+    chunk_indexes.push_back(packedBytes(c.first, c.last, c.start, c.length, pairsOf(c.indexes),
+                                        c.indexes_length, std::string("zstd"), c.packed, c.plain));
     if (c.indexes.empty()) continue;
     first = std::min(first, c.first);
     last = std::max(last, c.last);
@@ -195,29 +148,29 @@ std::string McapWriter::summary(std::uint64_t start) {
   for (const auto& [channel, count] : counts_) messages += count;
   if (messages == 0) first = 0;
   const std::uint32_t no_metadata = 0;
-  group(kSchema, schemas_);
-  group(kChannel, channels_);
-  group(kStatistics, {(Fields() << messages << static_cast<std::uint16_t>(schemas_.size())
-                                << static_cast<std::uint32_t>(channels_.size())
-                                << static_cast<std::uint32_t>(attachments_.size()) << no_metadata
-                                << static_cast<std::uint32_t>(chunks_.size()) << first << last << counts_)
-                          .bytes});
-  group(kChunkIndex, chunk_indexes);
-  group(kAttachmentIndex, attachments_);
+  group(McapRecord::Schema, schemas_);
+  group(McapRecord::Channel, channels_);
+  group(McapRecord::Statistics,
+        {packedBytes(messages, static_cast<std::uint16_t>(schemas_.size()),
+                     static_cast<std::uint32_t>(channels_.size()),
+                     static_cast<std::uint32_t>(attachments_.size()), no_metadata,
+                     static_cast<std::uint32_t>(chunks_.size()), first, last, pairsOf(counts_))});
+  group(McapRecord::ChunkIndex, chunk_indexes);
+  group(McapRecord::AttachmentIndex, attachments_);
   const std::uint64_t offsets_start = start + all.size();
   all += offsets;
   // The checksum covers the summary and the footer up to itself.
-  const std::string footer = (Fields() << start << offsets_start).bytes;
+  const std::string footer = packedBytes(start, offsets_start);
   const std::uint64_t footer_length = footer.size() + sizeof(std::uint32_t);
-  const std::string head = (Fields() << std::uint8_t{kFooter} << footer_length).bytes;
+  const std::string head = packedBytes(McapRecord::Footer, footer_length);
   all += head + footer;
-  return all + (Fields() << crcOf(all)).bytes;
+  return all + packedBytes(crcOf(all));
 }
 
 void McapWriter::close() {
   closeChunk();
-  putRecord(kDataEnd, (Fields() << crc_).bytes);
-  put(summary(position_) + std::string(kMagic));
+  putRecord(McapRecord::DataEnd, packedBytes(crc_));
+  put(summary(position_) + std::string(kMcapMagic));
   file_.close();
   if (!file_) throw DataError(Complaint{.what = "the disk takes no more", .place = {.file = path_.string()}});
 }

@@ -2,7 +2,9 @@
 /// Values packed into bytes and back, as the machine keeps them (little endian), without padding. Private to
 /// io.
 
-#include <Eigen/Core>
+#include <zlib.h>
+
+#include <Eigen/Geometry>
 #include <bit>
 #include <concepts>
 #include <cstdint>
@@ -12,9 +14,10 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "pos/core/measurement.hpp"
+#include "pos/core/stamp.hpp"
 
 namespace pos::io {
 
@@ -52,7 +55,7 @@ class Packer {
   void put(const Eigen::Quaterniond& q) { put(q.coeffs()); }
   void put(Duration duration) { put(duration.count()); }
   void put(Stamp stamp) { put(stamp.time_since_epoch()); }
-  void put(const std::string& text) {
+  void put(std::string_view text) {
     put(static_cast<std::uint32_t>(text.size()));
     raw(text.data(), text.size());
   }
@@ -74,6 +77,23 @@ class Unpacker {
   explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
 
   bool atEnd() const { return bytes_.empty(); }
+  std::string_view rest() const { return bytes_; }
+
+  template <class T>
+  T value() {
+    T result{};
+    take(result);
+    return result;
+  }
+  /// The next `size` bytes where they lie.
+  std::string_view bytes(std::uint64_t size) {
+    if (size > bytes_.size()) throw Unpackable("the values end early");
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return taken;
+  }
+  /// A text where it lies.
+  std::string_view text() { return bytes(value<std::uint32_t>()); }
 
   template <class... T>
   void operator()(T&... values) {
@@ -82,9 +102,8 @@ class Unpacker {
 
  private:
   void raw(void* target, std::size_t size) {
-    if (bytes_.size() < size) throw Unpackable("the values end early");
-    if (size > 0) std::memcpy(target, bytes_.data(), size);
-    bytes_.remove_prefix(size);
+    const std::string_view taken = bytes(size);
+    if (size > 0) std::memcpy(target, taken.data(), size);
   }
   std::size_t count(std::size_t size) {
     std::uint32_t items = 0;
@@ -136,47 +155,18 @@ class Unpacker {
   std::string_view bytes_;
 };
 
-/// R is T or const T.
-template <class R, class T>
-concept As = std::same_as<std::remove_const_t<R>, T>;
+/// The values one behind the other.
+template <class... T>
+std::string packedBytes(const T&... values) {
+  Packer packer;
+  packer(values...);
+  return std::move(packer.bytes);
+}
 
-/// Every field of a reading, for a Packer and an Unpacker alike.
-template <class A, As<OdometryIncrement> R>
-void fields(A& archive, R& r) {
-  archive(r.increment.x, r.increment.y, r.increment.yaw, r.interval, r.covariance);
-}
-template <class A, As<WheelSpeeds> R>
-void fields(A& archive, R& r) {
-  archive(r.left, r.right, r.yaw_rate);
-}
-template <class A, As<WheelTicks> R>
-void fields(A& archive, R& r) {
-  archive(r.left, r.right);
-}
-template <class A, As<ImuSample> R>
-void fields(A& archive, R& r) {
-  archive(r.kind, r.angular, r.linear, r.interval);
-}
-template <class A, As<BeaconRange> R>
-void fields(A& archive, R& r) {
-  archive(r.tag, r.anchor, r.range, r.sigma, r.tag_body, r.rx_power_dbm, r.first_path_power_dbm);
-}
-template <class A, As<GnssFix> R>
-void fields(A& archive, R& r) {
-  archive(r.latitude, r.longitude, r.altitude, r.covariance_enu, r.quality);
-}
-template <class A, As<Scan2D> R>
-void fields(A& archive, R& r) {
-  archive(r.T_body_sensor.translation, r.T_body_sensor.rotation, r.angle_first, r.angle_step, r.range_max,
-          r.ranges, r.valid);
-}
-template <class A, As<PoseTruth> R>
-void fields(A& archive, R& r) {
-  archive(r.T_map_body.translation, r.T_map_body.rotation);
-}
-template <class A, As<PassageFix> R>
-void fields(A& archive, R& r) {
-  archive(r.place, r.p_map, r.covariance, r.p_body, r.yaw, r.yaw_sigma);
+/// CRC-32 of zlib and gzip, `before` being that of what stands before.
+inline std::uint32_t crcOf(std::string_view bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(
+      crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace pos::io

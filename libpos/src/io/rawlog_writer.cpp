@@ -5,6 +5,7 @@
 #include "mrpt_archive.hpp"
 #include "pos/core/error.hpp"
 #include "rawlog_encoder.hpp"
+#include "sound.hpp"
 
 namespace pos::io {
 
@@ -37,12 +38,7 @@ RawlogWriter::~RawlogWriter() = default;
 
 void RawlogWriter::write(const Measurement& measurement) {
   ensure(impl_->archive.isOpen(), "a closed rawlog cannot be written to");
-  if (const auto reason = defect(measurement)) {
-    throw DataError(Complaint{.what = "a defective measurement is not written",
-                              .place = {.file = impl_->path},
-                              .key = measurement.sensor,
-                              .got = *reason});
-  }
+  requireSound(measurement, impl_->path);
   try {
     impl_->encoder.put(measurement);
   } catch (const std::runtime_error&) {

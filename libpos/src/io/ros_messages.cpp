@@ -136,15 +136,9 @@ std::string odometry(const Estimate& estimate, const std::string& frame) {
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   Matrix<6, 6> twist = kUnknown * Matrix<6, 6>::Identity();
   if (estimate.twist) {
-    const std::array<int, 3> rows{0, 1, 5};
     linear.head<2>() = estimate.twist->rates.head<2>();
     angular.z() = estimate.twist->rates[2];
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        twist(rows[i], rows[j]) =
-            estimate.twist->covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      }
-    }
+    twist(kPlanar, kPlanar) = estimate.twist->covariance;
   }
   CdrWriter out;
   header(out, estimate.stamp) << frame << estimate.T_map_body

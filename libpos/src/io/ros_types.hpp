@@ -2,6 +2,7 @@
 /// The parts that ROS 2 message definitions are made of, and how their values are stored. Private to io.
 
 #include <Eigen/Geometry>
+#include <array>
 #include <initializer_list>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace pos::io::ros {
 /// The frame that poses of the map are told in, and that of the vehicle's body.
 inline constexpr const char* kMapFrame = "map";
 inline constexpr const char* kBodyFrame = "base_link";
+
+/// Where x, y and the turn about z stand in a pose's or a twist's six.
+inline constexpr std::array<int, 3> kPlanar{0, 1, 5};
 
 struct Part {
   const char* name;

@@ -13,6 +13,8 @@
 
 namespace pos::io {
 
+enum class McapRecord : std::uint8_t;  // the format's own kinds
+
 /// A ROS 2 message type: its name ("nav_msgs/msg/Odometry") and its definition, with those of its parts
 /// behind lines of equal signs.
 struct RosType {
@@ -54,7 +56,7 @@ class McapWriter {
   };
 
   void put(const std::string& bytes);
-  void putRecord(std::uint8_t opcode, const std::string& content);
+  void putRecord(McapRecord opcode, const std::string& content);
   void closeChunk();
   std::string summary(std::uint64_t start);
 

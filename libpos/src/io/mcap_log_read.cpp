@@ -1,16 +1,10 @@
-#include "pos/io/mcap_log.hpp"
-
-#include <deque>
-#include <fstream>
-#include <set>
-#include <tuple>
 #include <utility>
 
 #include "cdr.hpp"
+#include "file_kind.hpp"
+#include "mcap_log_parts.hpp"
 #include "mcap_reader.hpp"
-#include "pos/core/error.hpp"
-#include "pos/io/mcap_writer.hpp"
-#include "ros_messages.hpp"
+#include "pos/io/mcap_log.hpp"
 #include "ros_sensors.hpp"
 #include "ros_types.hpp"
 
@@ -22,13 +16,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kOdometry = "nav_msgs/msg/Odometry";
 constexpr std::string_view kTransforms = "tf2_msgs/msg/TFMessage";
 constexpr std::string_view kPose = "geometry_msgs/msg/PoseStamped";
-constexpr const char* kStatic = "/tf_static";
-constexpr std::string_view kTruth = "/ground_truth";  // how topics of reference poses begin
-
-// Keys of a channel's metadata.
-constexpr const char* kSensor = "sensor";    // the label in the log
-constexpr const char* kContent = "content";  // kIncrements: the covariance of the twist is the increment's
-constexpr const char* kIncrements = "increments";
 
 /// The static transforms of a file, and those told from outside.
 class FrameTree {
@@ -60,12 +47,13 @@ class FrameTree {
 };
 
 std::string labelOf(const McapChannel& channel) {
-  if (const auto told = channel.metadata.find(kSensor); told != channel.metadata.end()) return told->second;
+  if (const auto told = channel.metadata.find(kSensorKey); told != channel.metadata.end())
+    return told->second;
   return channel.topic.starts_with('/') ? channel.topic.substr(1) : channel.topic;
 }
 
 bool holdsIncrements(const McapChannel& channel) {
-  const auto told = channel.metadata.find(kContent);
+  const auto told = channel.metadata.find(kContentKey);
   return told != channel.metadata.end() && told->second == kIncrements;
 }
 
@@ -85,12 +73,8 @@ bool needsMount(const Reading& reading) {
 }  // namespace
 
 bool isMcap(const fs::path& path) {
-  std::array<char, kMcapMagic.size()> head{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(head.data(), head.size()) && std::string_view(head.data(), head.size()) == kMcapMagic;
+  return beginsWith(path, kMcapMagic);
 }
-
-// ---------------------------------------------------------------- reading
 
 struct McapLogReader::Impl {
   Impl(const fs::path& path, Mounts mounts) : file(path), frames(std::move(mounts)) {}
@@ -148,8 +132,8 @@ void McapLogReader::Impl::takeReading(const McapMessage& message) {
     const auto mount = frames.mount(decoded.head.frame);
     if (!mount) {
       ++tally.refused[channel.type + " in the frame '" + decoded.head.frame +
-                      "', which nothing places on the vehicle: " + kStatic + " has no way from it to " +
-                      ros::kBodyFrame + "; say it by --mount"];
+                      "', which nothing places on the vehicle: " + kStaticTransforms +
+                      " has no way from it to " + ros::kBodyFrame + "; say it by --mount"];
       return;
     }
     placeOnBody(*decoded.reading, *mount);
@@ -164,12 +148,12 @@ void McapLogReader::Impl::take(const McapMessage& message) {
       skip((channel.type.empty() ? channel.topic : channel.type) + " encoded as " + channel.encoding);
     } else if (channel.type == kOdometry) {
       takeOdometry(message);
-    } else if (channel.type == kTransforms && channel.topic == kStatic) {
+    } else if (channel.type == kTransforms && channel.topic == kStaticTransforms) {
       for (const ros::Transform& transform : ros::transformsFrom(message.bytes)) frames.add(transform);
     } else if (!ros::isSensorType(channel.type)) {
       skip(channel.type);
-    } else if (channel.type == kPose && !channel.topic.starts_with(kTruth)) {
-      skip(channel.type + " of other topics than " + std::string(kTruth) + "...");
+    } else if (channel.type == kPose && !channel.topic.starts_with(kTruthTopics)) {
+      skip(channel.type + " of other topics than " + std::string(kTruthTopics) + "...");
     } else {
       takeReading(message);
     }
@@ -207,100 +191,6 @@ const LogEnd& McapLogReader::end() const {
 
 const LogTally& McapLogReader::tally() const {
   return impl_->tally;
-}
-
-// ---------------------------------------------------------------- writing
-
-struct McapLogWriter::Impl {
-  explicit Impl(const fs::path& path) : file(path) {}
-
-  /// What is known of one sensor's topic.
-  struct Topic {
-    std::uint16_t channel = 0;
-    std::string frame = ros::kBodyFrame;
-    std::optional<Pose3> mount = {};  // as told last
-    Pose2 pose = {};                  // odometry added up
-    std::optional<Stamp> last = {};
-  };
-
-  Topic& topicOf(const Measurement& measurement);
-  void writeOdometry(Topic& topic, Stamp stamp, const OdometryIncrement& reading);
-  void tellMount(Topic& topic, Stamp stamp, const std::string& sensor, const Pose3& mount);
-
-  McapWriter file;
-  std::map<std::pair<std::string, std::size_t>, Topic> topics;
-  std::set<std::string> names;
-  std::optional<std::uint16_t> transforms;
-};
-
-McapLogWriter::Impl::Topic& McapLogWriter::Impl::topicOf(const Measurement& measurement) {
-  const auto [found, fresh] = topics.try_emplace({measurement.sensor, measurement.reading.index()});
-  if (!fresh) return found->second;
-  std::string name = "/" + measurement.sensor;
-  if (std::holds_alternative<PoseTruth>(measurement.reading))
-    name = std::string(kTruth) + (names.count(std::string(kTruth) + "/pose") == 0 ? "/pose" : name);
-  if (!names.insert(name).second) names.insert(name += "/" + std::string(readingName(measurement.reading)));
-  std::map<std::string, std::string> metadata{{kSensor, measurement.sensor}};
-  if (std::holds_alternative<OdometryIncrement>(measurement.reading)) metadata[kContent] = kIncrements;
-  found->second.channel = file.addChannel(name, ros::sensorType(measurement.reading), metadata);
-  return found->second;
-}
-
-void McapLogWriter::Impl::writeOdometry(Topic& topic, Stamp stamp, const OdometryIncrement& reading) {
-  ros::OdometryMessage message;
-  if (!topic.last) {  // what the first increment begins from
-    topic.last = stamp - reading.interval.value_or(Duration{0});
-    message.head.stamp = *topic.last;
-    file.write(topic.channel, *topic.last, ros::odometryMessage(message));
-  }
-  const double dt = seconds(stamp - *topic.last);
-  topic.pose = topic.pose * reading.increment;
-  topic.last = stamp;
-  message.head.stamp = stamp;
-  message.pose = topic.pose;
-  if (dt > 0.0) {
-    message.rates = Vector<3>(reading.increment.x, reading.increment.y, reading.increment.yaw) / dt;
-    if (reading.covariance) message.covariance = *reading.covariance / (dt * dt);
-  }
-  file.write(topic.channel, stamp, ros::odometryMessage(message));
-}
-
-void McapLogWriter::Impl::tellMount(Topic& topic, Stamp stamp, const std::string& sensor,
-                                    const Pose3& mount) {
-  topic.frame = sensor + "_link";
-  if (topic.mount && topic.mount->translation == mount.translation &&
-      topic.mount->rotation.coeffs() == mount.rotation.coeffs()) {
-    return;
-  }
-  topic.mount = mount;
-  if (!transforms) transforms = file.addChannel(kStatic, ros::transformsType());
-  file.write(*transforms, stamp, ros::transforms(stamp, mount, topic.frame, ros::kBodyFrame));
-}
-
-McapLogWriter::McapLogWriter(const fs::path& path) : impl_(std::make_unique<Impl>(path)) {}
-McapLogWriter::McapLogWriter(McapLogWriter&&) noexcept = default;
-McapLogWriter& McapLogWriter::operator=(McapLogWriter&&) noexcept = default;
-McapLogWriter::~McapLogWriter() = default;
-
-void McapLogWriter::write(const Measurement& measurement) {
-  if (const auto reason = defect(measurement)) {
-    throw DataError(
-        Complaint{.what = "a measurement that no log may hold: " + *reason, .key = measurement.sensor});
-  }
-  Impl::Topic& topic = impl_->topicOf(measurement);
-  if (const auto* odometry = std::get_if<OdometryIncrement>(&measurement.reading))
-    return impl_->writeOdometry(topic, measurement.stamp, *odometry);
-  if (const auto* scan = std::get_if<Scan2D>(&measurement.reading))
-    impl_->tellMount(topic, measurement.stamp, measurement.sensor, scan->T_body_sensor);
-  const bool in_map = std::holds_alternative<PoseTruth>(measurement.reading) ||
-                      std::holds_alternative<PassageFix>(measurement.reading);
-  impl_->file.write(
-      topic.channel, measurement.stamp,
-      ros::sensorMessage(measurement.stamp, measurement.reading, in_map ? ros::kMapFrame : topic.frame));
-}
-
-void McapLogWriter::close() {
-  impl_->file.close();
 }
 
 }  // namespace pos::io

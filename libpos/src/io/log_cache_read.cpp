@@ -1,15 +1,10 @@
-#include "pos/io/log_cache.hpp"
-
-#include <zlib.h>
-
 #include <array>
 #include <fstream>
-#include <limits>
 #include <system_error>
-#include <unordered_map>
 #include <utility>
 
-#include "packed.hpp"
+#include "file_kind.hpp"
+#include "log_cache_parts.hpp"
 #include "pos/core/error.hpp"
 #include "pos/io/sha256.hpp"
 
@@ -18,106 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic("POSLOG\x01\n", 8);  // with the version
-constexpr std::size_t kBlock = std::size_t{1} << 17U;  // bytes of records in one block
 constexpr std::uint32_t kLargestBlock = 1U << 28U;
-constexpr std::size_t kMostLabels = 65535;
-
-/// Blocks: type, length, CRC-32 of the content, content.
-enum class BlockType : std::uint8_t { Head = 1, Records, End };
-constexpr std::size_t kBlockHead = 9;
-/// A record begins with the reading's index; this one gives the next label its number instead.
-constexpr std::uint8_t kNewLabel = 255;
-
-std::uint32_t crcOf(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
-}
-
-CacheSource sourceAt(const fs::path& log, const std::string& sha256) {
-  return {.name = log.filename().string(),
-          .size = fs::file_size(log),
-          .changed = static_cast<std::int64_t>(fs::last_write_time(log).time_since_epoch().count()),
-          .sha256 = sha256};
-}
-
-// ---------------------------------------------------------------- writing
-
-class Writer {
- public:
-  Writer(fs::path path, const CacheSource& source) : path_(std::move(path)), file_(path_, std::ios::binary) {
-    if (!file_) {
-      throw DataError(Complaint{.what = "the packed copy cannot be written",
-                                .place = {.file = path_.string()},
-                                .suggestion = "check that the folder exists and may be written to"});
-    }
-    file_.write(kMagic.data(), kMagic.size());
-    Packer head;
-    head(source.name, source.size, source.changed, source.sha256);
-    put(BlockType::Head, head.bytes);
-  }
-
-  void write(const Measurement& measurement) {
-    const std::uint16_t label = labelOf(measurement.sensor);
-    records_(static_cast<std::uint8_t>(measurement.reading.index()), label, measurement.stamp);
-    std::visit([this](const auto& reading) { fields(records_, reading); }, measurement.reading);
-    if (records_.bytes.size() >= kBlock) flush();
-  }
-
-  void close(const LogEnd& end, const LogTally& tally) {
-    flush();
-    Packer last;
-    last(end.damaged, end.objects, end.byte, end.message, tally.references);
-    for (const auto* counts : {&tally.skipped, &tally.refused}) {
-      last(static_cast<std::uint32_t>(counts->size()));
-      for (const auto& [what, count] : *counts) last(what, count);
-    }
-    put(BlockType::End, last.bytes);
-    file_.close();
-    requireGood();
-  }
-
- private:
-  std::uint16_t labelOf(const std::string& label) {
-    const auto [found, fresh] = labels_.try_emplace(label, static_cast<std::uint16_t>(labels_.size()));
-    if (fresh && labels_.size() > kMostLabels) {
-      throw DataError(
-          Complaint{.what = "the log has too many sensors to be packed", .place = {.file = path_.string()}});
-    }
-    if (fresh) records_(kNewLabel, label);
-    return found->second;
-  }
-  void flush() {
-    if (!records_.bytes.empty()) put(BlockType::Records, records_.bytes);
-    records_.bytes.clear();
-  }
-  void put(BlockType type, const std::string& content) {
-    Packer head;
-    head(type, static_cast<std::uint32_t>(content.size()), crcOf(content));
-    file_.write(head.bytes.data(), static_cast<std::streamsize>(head.bytes.size()));
-    file_.write(content.data(), static_cast<std::streamsize>(content.size()));
-    requireGood();
-  }
-  void requireGood() {
-    if (!file_)
-      throw DataError(Complaint{.what = "the disk takes no more", .place = {.file = path_.string()}});
-  }
-
-  fs::path path_;
-  std::ofstream file_;
-  Packer records_;
-  std::unordered_map<std::string, std::uint16_t> labels_;
-};
-
-PackedLog packed(LogReader& reader, const fs::path& path, const CacheSource& source) {
-  Writer writer(path, source);
-  std::uint64_t count = 0;
-  for (; auto measurement = reader.next(); ++count) writer.write(*measurement);
-  writer.close(reader.end(), reader.tally());
-  return {count, reader.end(), reader.tally()};
-}
-
-// ---------------------------------------------------------------- reading
 
 template <std::size_t I = 0>
 void emplaceReading(std::size_t index, Reading& reading) {
@@ -188,9 +84,9 @@ BlockType LogCacheReader::Impl::readBlock() {
 }
 
 void LogCacheReader::Impl::readHead() {
-  std::array<char, kMagic.size()> magic{};
+  std::array<char, kCacheMagic.size()> magic{};
   if (!file) throw DataError(Complaint{.what = "there is no such file", .place = {.file = path.string()}});
-  if (!file.read(magic.data(), magic.size()) || std::string_view(magic.data(), magic.size()) != kMagic)
+  if (!file.read(magic.data(), magic.size()) || std::string_view(magic.data(), magic.size()) != kCacheMagic)
     refuse("its head is that of another version or file");
   if (readBlock() != BlockType::Head) refuse("it does not begin with its head");
   Unpacker fields_of_head(block);
@@ -297,38 +193,8 @@ bool LogCacheReader::belongsTo(const fs::path& log) const {
   return now.changed == impl_->source.changed || sha256OfFile(log) == impl_->source.sha256;
 }
 
-fs::path cacheBeside(const fs::path& log) {
-  fs::path beside = log;
-  beside += ".cache";
-  return beside;
-}
-
 bool isLogCache(const fs::path& path) {
-  std::array<char, kMagic.size()> magic{};
-  std::ifstream file(path, std::ios::binary);
-  constexpr std::string_view kAnyVersion = kMagic.substr(0, 6);
-  return file.read(magic.data(), magic.size()) &&
-         std::string_view(magic.data(), kAnyVersion.size()) == kAnyVersion;
-}
-
-PackedLog packLog(const fs::path& log, const fs::path& copy) {
-  if (isLogCache(log)) {
-    throw DataError(Complaint{.what = "this is a packed copy already",
-                              .place = {.file = log.string()},
-                              .suggestion = "name the log that it was made of"});
-  }
-  const std::unique_ptr<LogReader> reader = openLogItself(log.string());
-  fs::path part = copy;
-  part += ".part";
-  try {
-    PackedLog result = packed(*reader, part, sourceAt(log, sha256OfFile(log)));
-    fs::rename(part, copy);
-    return result;
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw;
-  }
+  return beginsWith(path, kCacheMagic.substr(0, 6));  // of any version
 }
 
 }  // namespace pos::io
