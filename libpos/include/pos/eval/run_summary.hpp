@@ -145,7 +145,7 @@ struct EstimatorRecord {
   std::optional<NisGrid> nis = {};                   ///< where the run is looked at on a grid
   std::optional<IntervalRecord> intervals = {};      ///< where intervals are evaluated
   std::optional<SwitchingWatch> switching = {};      ///< of an estimator that chooses between models
-  std::size_t recorded = 0;                          ///< estimates there were; 0: as many as `estimates` holds
+  std::size_t recorded = 0;  ///< estimates there were; 0: as many as `estimates` holds
 };
 
 /// All figures and series of one estimator; `truth` may be null or empty. `start` is the zero of the plots'
