@@ -1,11 +1,9 @@
 #include "convert_log.hpp"
 
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "pos/core/angle.hpp"
@@ -14,6 +12,7 @@
 #include "pos/io/log_cache.hpp"
 #include "pos/io/mcap_log.hpp"
 #include "pos/io/rawlog_writer.hpp"
+#include "pos/io/text.hpp"
 #include "pos/io/trajectory_io.hpp"
 
 namespace pos::app {
@@ -41,12 +40,16 @@ std::string formOf(const LogOptions& options) {
 /// "FRAME=X,Y,Z,YAW,PITCH,ROLL", metres and degrees.
 std::pair<std::string, Pose3> mountFrom(const std::string& text) {
   const std::size_t equals = text.find('=');
-  std::istringstream values(equals == std::string::npos ? "" : text.substr(equals + 1));
+  const std::vector<std::string> parts =
+      CLI::detail::split(equals == std::string::npos ? "" : text.substr(equals + 1), ',');
   std::array<double, 6> v{};
-  bool good = equals != std::string::npos && equals > 0;
-  for (std::size_t i = 0; i < v.size() && good; ++i)
-    good = (i == 0 || values.get() == ',') && static_cast<bool>(values >> v[i]) && std::isfinite(v[i]);
-  if (!good || values.peek() != std::istringstream::traits_type::eof()) {
+  bool good = equals != std::string::npos && equals > 0 && parts.size() == v.size();
+  for (std::size_t i = 0; good && i < v.size(); ++i) {
+    const auto number = io::text::number(parts[i]);
+    good = number.has_value();
+    v[i] = number.value_or(0.0);
+  }
+  if (!good) {
     throw UsageError(Complaint{.what = "this is no place of a sensor on the vehicle",
                                .key = "--mount",
                                .got = text,
@@ -71,8 +74,8 @@ std::unique_ptr<io::LogReader> openFor(const LogOptions& options) {
 
 /// Every measurement into `writer`, which is closed then.
 template <class Writer>
-io::PackedLog copied(io::LogReader& reader, Writer writer) {
-  io::PackedLog result;
+io::CopiedLog copied(io::LogReader& reader, Writer writer) {
+  io::CopiedLog result;
   for (; auto measurement = reader.next(); ++result.measurements) writer.write(*measurement);
   writer.close();
   result.end = reader.end();
@@ -99,7 +102,7 @@ class JsonLines {
   std::optional<io::LineWriter> file_;
 };
 
-io::PackedLog convertedLog(const LogOptions& options, const std::string& form, const std::string& out) {
+io::CopiedLog convertedLog(const LogOptions& options, const std::string& form, const std::string& out) {
   if (form == "cache" && options.mounts.empty()) return io::packLog(options.in, out);
   if (form == "cache") {
     throw UsageError(Complaint{.what = "a packed copy is of the log as it is",
@@ -121,7 +124,7 @@ ExitCode convertLog(const LogOptions& options, const Voice& voice) {
                                .key = "--out",
                                .expected = "a file named *.rawlog, *.jsonl, *.mcap or *.cache"});
   }
-  const io::PackedLog result = convertedLog(options, form, out);
+  const io::CopiedLog result = convertedLog(options, form, out);
   for (const auto& [what, n] : result.tally.skipped)
     voice.warn("not converted, pos has no such reading: " + std::to_string(n) + " x " + what);
   for (const auto& [what, n] : result.tally.refused)

@@ -34,6 +34,11 @@ io::RangeFaults rangeFaults(const io::RunConfig& config) {
                           .seed = config.faults.seed.value_or(config.seed)});
 }
 
+/// A report judges estimates by their truth, and measures a face by all of them; else it only draws them.
+bool onlyDrawn(const Inputs& inputs, const io::EstimatorEntry& entry) {
+  return !inputs.truth && !std::holds_alternative<estimation::ShearerConfig>(entry.config);
+}
+
 /// Each estimator by itself, but for those of MRPT: all of them draw from its one random generator.
 std::vector<std::vector<std::size_t>> groupsOf(const std::vector<Recorder>& recorders) {
   std::vector<std::vector<std::size_t>> groups;
@@ -51,7 +56,7 @@ std::vector<std::vector<std::size_t>> groupsOf(const std::vector<Recorder>& reco
 
 }  // namespace
 
-Pass::Pass(const Inputs& inputs, const io::RunFolder* folder)
+Pass::Pass(const Inputs& inputs, const io::RunFolder* folder, Keep keep)
     : inputs_(inputs), sequencer_(sequencerLag(inputs.config)), faults_(rangeFaults(inputs.config)) {
   if (inputs.config.intervals) result_.intervals = intervalGround(inputs.map, *inputs.config.intervals);
   for (const io::EstimatorEntry& entry : inputs.config.estimators) {
@@ -61,7 +66,7 @@ Pass::Pass(const Inputs& inputs, const io::RunFolder* folder)
     if (result_.intervals) recorders_.back().watchIntervals(result_.intervals, *inputs.config.intervals);
     if (folder != nullptr) recorders_.back().openFiles(*folder);
     if (inputs.grid) recorders_.back().sumNisOn(*inputs.grid);
-    if (!inputs.truth) recorders_.back().keepAtMost(kMostDrawn);
+    if (keep == Keep::ForTheReport && onlyDrawn(inputs, entry)) recorders_.back().keepAtMost(kMostDrawn);
   }
   if (folder != nullptr) events_.emplace(folder->eventsCsv());
   groups_ = groupsOf(recorders_);

@@ -16,7 +16,7 @@ namespace pos::app {
 class Pass {
  public:
   /// Keeps a reference to `inputs`. Files go to `folder` where there is one.
-  Pass(const Inputs& inputs, const io::RunFolder* folder);
+  Pass(const Inputs& inputs, const io::RunFolder* folder, Keep keep = Keep::All);
 
   void take(Measurement measurement);
   /// The same with many, the estimators side by side in threads. The results are the same, bit by bit.

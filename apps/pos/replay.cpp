@@ -54,8 +54,8 @@ std::optional<eval::FaceLine> faceOf(const io::RunConfig& config, const std::str
 
 }  // namespace
 
-Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress) {
-  Pass pass(inputs, folder);
+Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress, Keep keep) {
+  Pass pass(inputs, folder, keep);
   const std::unique_ptr<Source> source = openSource(inputs);
   std::uint64_t measurements = 0;
   bool interrupted = false;

@@ -30,8 +30,12 @@ struct Replayed {
 /// Called now and then with the number of measurements so far and the stamp reached; false stops the pass.
 using Progress = std::function<bool(std::uint64_t, Stamp)>;
 
+/// The estimates in the records: all, or those that a report of the run needs.
+enum class Keep { All, ForTheReport };
+
 /// Runs every estimator of the configuration over its log. Files go to `folder` where there is one.
-Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress);
+Replayed replayed(const Inputs& inputs, const io::RunFolder* folder, const Progress& progress,
+                  Keep keep = Keep::All);
 
 /// The face by every shearer of the run, and pictures of what it saw.
 report::ReportExtras extrasOf(const Inputs& inputs, const Replayed& replayed);

@@ -70,10 +70,11 @@ ExitCode runReplay(const Options& options, const Voice& voice) {
     const bool knows_end = inputs.truth && inputs.truth->poses.size() > 1;
     ProgressLine line(voice, "replay",
                       knows_end ? std::optional(inputs.truth->poses.back().stamp) : std::nullopt);
-    return replayed(inputs, folder ? &*folder : nullptr, [&](std::uint64_t count, Stamp stamp) {
+    const auto go_on = [&](std::uint64_t count, Stamp stamp) {
       line.draw(count, stamp);
       return !interrupted();
-    });
+    };
+    return replayed(inputs, folder ? &*folder : nullptr, go_on, Keep::ForTheReport);
   }();
   if (!result.source_note.empty()) voice.say(result.source_note);
   sayLeftOut(result.tally, voice);

@@ -44,7 +44,8 @@ ExitCode runReport(const Options& options, const Voice& voice) {
   const std::string yaml = resolvedConfigOf(options.folder);
   const fs::path origin = fs::path(options.folder) / "run.json";
   const Inputs inputs = loadInputs(io::runConfigFrom(io::parseYaml(yaml, origin), mrptShare()));
-  const Replayed result = replayed(inputs, nullptr, [](std::uint64_t, Stamp) { return true; });
+  const Replayed result = replayed(
+      inputs, nullptr, [](std::uint64_t, Stamp) { return true; }, Keep::ForTheReport);
   const bool in_folder = options.out.empty();
   const fs::path out = in_folder ? fs::path(options.folder) / "report.html" : fs::path(options.out);
   const auto viewer = in_folder ? viewerTemplate(options.interface) : std::nullopt;

@@ -81,7 +81,7 @@ class Writer {
   std::unordered_map<std::string, std::uint16_t> labels_;
 };
 
-PackedLog packed(LogReader& reader, const fs::path& path, const CacheSource& source) {
+CopiedLog packed(LogReader& reader, const fs::path& path, const CacheSource& source) {
   Writer writer(path, source);
   std::uint64_t count = 0;
   for (; auto measurement = reader.next(); ++count) writer.write(*measurement);
@@ -104,7 +104,7 @@ fs::path cacheBeside(const fs::path& log) {
   return beside;
 }
 
-PackedLog packLog(const fs::path& log, const fs::path& copy) {
+CopiedLog packLog(const fs::path& log, const fs::path& copy) {
   if (isLogCache(log)) {
     throw DataError(Complaint{.what = "this is a packed copy already",
                               .place = {.file = log.string()},
@@ -114,7 +114,7 @@ PackedLog packLog(const fs::path& log, const fs::path& copy) {
   fs::path part = copy;
   part += ".part";
   try {
-    PackedLog result = packed(*reader, part, sourceAt(log, sha256OfFile(log)));
+    CopiedLog result = packed(*reader, part, sourceAt(log, sha256OfFile(log)));
     fs::rename(part, copy);
     return result;
   } catch (...) {

@@ -52,7 +52,7 @@ std::string logOfEachKind(const ScratchFolder& folder) {
 TEST(LogCache, DeliversWhatTheLogDeliversBitByBit) {
   const ScratchFolder folder;
   const std::string log = logOfEachKind(folder);
-  const PackedLog packed = packLog(log, folder.file("a.cache"));
+  const CopiedLog packed = packLog(log, folder.file("a.cache"));
   RawlogReader source(log);
   LogCacheReader copy(folder.file("a.cache"));
   const Read expected = readAll(source);

@@ -26,14 +26,14 @@ std::filesystem::path cacheBeside(const std::filesystem::path& log);
 bool isLogCache(const std::filesystem::path& path);
 
 /// What was copied, and what was not.
-struct PackedLog {
+struct CopiedLog {
   std::uint64_t measurements = 0;
   LogEnd end;
   LogTally tally;
 };
 /// Reads the log once and writes its copy, which appears whole or not at all. Throws DataError when the log
 /// cannot be read or the copy not be written.
-PackedLog packLog(const std::filesystem::path& log, const std::filesystem::path& copy);
+CopiedLog packLog(const std::filesystem::path& log, const std::filesystem::path& copy);
 
 /// Delivers what the reader of the source delivers, bit by bit, its end and tally included.
 class LogCacheReader final : public LogReader {
