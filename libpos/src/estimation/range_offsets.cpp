@@ -7,6 +7,53 @@
 
 namespace pos::estimation {
 
+template <int M>
+filters::Correction<M> RangeOffsets::correctJoint(Belief<EskfState>& belief,
+                                                  const filters::Innovation<EskfState, M>& innovation,
+                                                  const Rows<M>& H_offset, const Matrix<M, M>& R,
+                                                  filters::Gate gate) {
+  const Eigen::Matrix<double, 15, M> G =
+      belief.covariance * innovation.H.transpose() + cross_ * H_offset.transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, M> G_offset =
+      cross_.transpose() * innovation.H.transpose() + covariance_ * H_offset.transpose();
+  auto told = judged<M>(innovation.nu, innovation.H * G + H_offset * G_offset + R, gate);
+  if (told.verdict != Verdict::Applied) return told;
+  const Eigen::LLT<Matrix<M, M>> S(told.S);
+  const Eigen::Matrix<double, 15, M> K = S.solve(G.transpose()).transpose();
+  const Eigen::Matrix<double, Eigen::Dynamic, M> K_offset = S.solve(G_offset.transpose()).transpose();
+  const Vector<15> d = K * told.nu;
+  belief.mean = plus(belief.mean, d);
+  mean_ += K_offset * told.nu;
+  belief.covariance -= K * G.transpose();
+  cross_ -= K * G_offset.transpose();
+  covariance_ -= K_offset * G_offset.transpose();
+  filters::symmetrise(belief.covariance);
+  filters::symmetrise(covariance_);
+  const Eigen::Matrix3d turned = ins::rightJacobian(d.segment<3>(EskfState::kAttitude));
+  ins::turnAttitude(belief.covariance, turned);
+  cross_.middleRows<3>(EskfState::kAttitude) = (turned * cross_.middleRows<3>(EskfState::kAttitude)).eval();
+  return told;
+}
+
+template <int M>
+filters::Correction<M> RangeOffsets::correct(Belief<EskfState>& belief,
+                                             const filters::Innovation<EskfState, M>& innovation,
+                                             const Matrix<M, M>& R, filters::Gate gate) {
+  if (none()) return correctError<M>(belief, innovation, R, gate);
+  return correctJoint<M>(belief, innovation, Rows<M>::Zero(M, mean_.size()), R, gate);
+}
+
+// All that is asked for: one range, a pair, a point.
+template filters::Correction<1> RangeOffsets::correct<1>(Belief<EskfState>&,
+                                                         const filters::Innovation<EskfState, 1>&,
+                                                         const Matrix<1, 1>&, filters::Gate);
+template filters::Correction<2> RangeOffsets::correct<2>(Belief<EskfState>&,
+                                                         const filters::Innovation<EskfState, 2>&,
+                                                         const Matrix<2, 2>&, filters::Gate);
+template filters::Correction<3> RangeOffsets::correct<3>(Belief<EskfState>&,
+                                                         const filters::Innovation<EskfState, 3>&,
+                                                         const Matrix<3, 3>&, filters::Gate);
+
 int RangeOffsets::indexOf(int anchor) const {
   const auto found = std::find(anchors_.begin(), anchors_.end(), anchor);
   return found == anchors_.end() ? -1 : static_cast<int>(found - anchors_.begin());

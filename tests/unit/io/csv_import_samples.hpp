@@ -29,6 +29,9 @@ R only(const ImportResult& result) {
   return std::get<R>(result.measurements.at(0).reading);
 }
 
-inline const std::string kStamp = "stamp: {column: t, unit: s}, ";
+/// A function: texts at the top of a file are put together before it, in the order that the linker likes.
+inline std::string stampColumn() {
+  return "stamp: {column: t, unit: s}, ";
+}
 
 }  // namespace pos::io

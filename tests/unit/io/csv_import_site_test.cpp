@@ -13,13 +13,14 @@ using ::testing::HasSubstr;
 
 constexpr double kTiny = 1e-12;
 
-const std::string kSomeStream = mappingOf("wheel_ticks", kStamp + "left: {value: 1}, right: {value: 1}");
+const std::string kSomeStream =
+    mappingOf("wheel_ticks", stampColumn() + "left: {value: 1}, right: {value: 1}");
 ImportResult importedTruth(const std::string& columns, const std::string& table) {
   const ScratchFolder folder;
   folder.write("a.csv", "t\n0\n");
   folder.write("truth.csv", table);
   return importCsv(
-      parseImportMapping(kSomeStream + "truth: {file: truth.csv, columns: {" + kStamp +
+      parseImportMapping(kSomeStream + "truth: {file: truth.csv, columns: {" + stampColumn() +
                              "x: {column: x, unit: m}, y: {column: y, unit: m}" + columns + "}}\n",
                          "m.yaml"),
       folder.path());
@@ -105,7 +106,7 @@ TEST(CsvImport, ACommentedHeaderHasToBeOne) {
                 imported(
                     "name: test\norigin_s: 0\nstreams:\n  - kind: odometry\n    file: a.csv\n"
                     "    header: commented\n    columns: {" +
-                        kStamp + "distance: {column: d, unit: m}, heading: {column: h, unit: rad}}\n",
+                        stampColumn() + "distance: {column: d, unit: m}, heading: {column: h, unit: rad}}\n",
                     "t,d,h\n0,1,0\n");
               }),
               ::testing::HasSubstr("does not start with '#'"));

@@ -34,36 +34,38 @@ TEST(CsvImport, OdometryIsAnArcInSi) {
 }
 
 TEST(CsvImport, StraightOdometryHasNoSidewaysPart) {
-  const auto odometry = only<OdometryIncrement>(imported(
-      mappingOf("odometry", kStamp + "distance: {column: d, unit: mm}, heading: {column: h, unit: mrad}, "
-                                     "interval: {value: 200, unit: ms}"),
-      "t,d,h\n0,-500,0\n"));
+  const auto odometry = only<OdometryIncrement>(
+      imported(mappingOf("odometry", stampColumn() +
+                                         "distance: {column: d, unit: mm}, heading: {column: h, unit: mrad}, "
+                                         "interval: {value: 200, unit: ms}"),
+               "t,d,h\n0,-500,0\n"));
   EXPECT_DOUBLE_EQ(odometry.increment.x, -0.5);
   EXPECT_EQ(odometry.increment.y, 0.0);
   EXPECT_EQ(odometry.interval, durationFromSeconds(0.2));
 }
 
 TEST(CsvImport, OdometryPoseIsTakenAsItIs) {
-  const auto odometry = only<OdometryIncrement>(
-      imported(mappingOf("odometry_pose", kStamp + "dx: {column: x, unit: km}, dy: {column: y, unit: m}, "
-                                                   "dyaw: {column: a, unit: deg}"),
-               "t,x,y,a\n0,0.001,-2,-180\n"));
+  const auto odometry = only<OdometryIncrement>(imported(
+      mappingOf("odometry_pose", stampColumn() + "dx: {column: x, unit: km}, dy: {column: y, unit: m}, "
+                                                 "dyaw: {column: a, unit: deg}"),
+      "t,x,y,a\n0,0.001,-2,-180\n"));
   EXPECT_THAT(odometry.increment.x, DoubleNear(1.0, kTiny));
   EXPECT_EQ(odometry.increment.y, -2.0);
   EXPECT_THAT(odometry.increment.yaw, DoubleNear(-kPi, kTiny));
 }
 
 TEST(CsvImport, WheelSpeedsAndTicksAreConverted) {
-  const auto speeds = only<WheelSpeeds>(imported(
-      mappingOf("wheel_speeds", kStamp + "left: {column: l, unit: km/h}, right: {column: r, unit: mm/s}, "
-                                         "yaw_rate: {column: w, unit: deg/s}"),
-      "t,l,r,w\n0,36,1500,180\n"));
+  const auto speeds = only<WheelSpeeds>(
+      imported(mappingOf("wheel_speeds", stampColumn() +
+                                             "left: {column: l, unit: km/h}, right: {column: r, unit: mm/s}, "
+                                             "yaw_rate: {column: w, unit: deg/s}"),
+               "t,l,r,w\n0,36,1500,180\n"));
   EXPECT_NEAR(speeds.left, 10.0, kTiny);
   EXPECT_NEAR(speeds.right, 1.5, kTiny);
   EXPECT_NEAR(*speeds.yaw_rate, kPi, kTiny);
-  const auto ticks =
-      only<WheelTicks>(imported(mappingOf("wheel_ticks", kStamp + "left: {column: l}, right: {column: r}"),
-                                "t,l,r\n0,-5,4294967296\n"));
+  const auto ticks = only<WheelTicks>(
+      imported(mappingOf("wheel_ticks", stampColumn() + "left: {column: l}, right: {column: r}"),
+               "t,l,r\n0,-5,4294967296\n"));
   EXPECT_EQ(ticks.left, -5);
   EXPECT_EQ(ticks.right, 4294967296);
 }
@@ -71,15 +73,16 @@ TEST(CsvImport, WheelSpeedsAndTicksAreConverted) {
 TEST(CsvImport, ImuRatesAndIncrementsAreConverted) {
   const auto rates = only<ImuSample>(imported(
       mappingOf("imu",
-                kStamp + "wx: {column: a, unit: deg/s}, wy: {column: b, unit: deg/h}, wz: {column: c, unit: "
-                         "rad/s}, ax: {column: d, unit: g}, ay: {column: e, unit: mg}, az: {column: f, unit: "
-                         "m/s^2}"),
+                stampColumn() +
+                    "wx: {column: a, unit: deg/s}, wy: {column: b, unit: deg/h}, wz: {column: c, unit: "
+                    "rad/s}, ax: {column: d, unit: g}, ay: {column: e, unit: mg}, az: {column: f, unit: "
+                    "m/s^2}"),
       "t,a,b,c,d,e,f\n0,180,3600,0.5,1,1000,9.5\n"));
   EXPECT_EQ(rates.kind, ImuSample::Kind::Rates);
   EXPECT_TRUE(rates.angular.isApprox(Eigen::Vector3d(kPi, radians(1.0), 0.5), kTiny));
   EXPECT_TRUE(rates.linear.isApprox(Eigen::Vector3d(9.80665, 9.80665, 9.5), kTiny));
   const auto increments = only<ImuSample>(imported(
-      mappingOf("imu_increments", kStamp +
+      mappingOf("imu_increments", stampColumn() +
                                       "dax: {column: a, unit: mrad}, day: {value: 0, unit: rad}, daz: "
                                       "{value: 0, unit: rad}, dvx: {column: b, unit: cm/s}, dvy: {value: "
                                       "0, unit: m/s}, dvz: {value: 0, unit: m/s}, interval: {column: i, "
@@ -92,7 +95,7 @@ TEST(CsvImport, ImuRatesAndIncrementsAreConverted) {
 }
 
 const std::string kRangeColumns =
-    kStamp + "tag: {column: tag}, anchor: {column: anchor}, range: {column: r, unit: m}";
+    stampColumn() + "tag: {column: tag}, anchor: {column: anchor}, range: {column: r, unit: m}";
 
 TEST(CsvImport, RangesTakeOptionalCellsAndTagPlaces) {
   const auto result = imported(
@@ -123,7 +126,7 @@ TEST(CsvImport, RangeOfAnUnknownTagIsRefusedOnlyWhenTagsAreListed) {
 }
 
 const std::string kGnssColumns =
-    kStamp +
+    stampColumn() +
     "latitude: {column: lat, unit: deg}, longitude: {column: lon, unit: deg}, altitude: {column: h, unit: "
     "m}, "
     "sigma_east: {column: s, unit: m}, sigma_north: {column: s, unit: m}, sigma_up: {value: 30, unit: cm}";
@@ -148,8 +151,8 @@ TEST(CsvImport, StreamsAreMergedStablyByStamp) {
   const ScratchFolder folder;
   folder.write("a.csv", "t,tag,anchor,r\n2,0,1,1\n1,0,2,1\n1,0,3,1\n");
   folder.write("b.csv", "t,l,r\n1,5,5\n0,6,6\n");
-  const std::string second = "  - {kind: wheel_ticks, file: b.csv, sensor: encoder, columns: {" + kStamp +
-                             "left: {column: l}, right: {column: r}}}\n";
+  const std::string second = "  - {kind: wheel_ticks, file: b.csv, sensor: encoder, columns: {" +
+                             stampColumn() + "left: {column: l}, right: {column: r}}}\n";
   const auto result =
       importCsv(parseImportMapping(mappingOf("ranges", kRangeColumns, second), "m.yaml"), folder.path());
   std::vector<std::string> order;
@@ -166,7 +169,7 @@ TEST(CsvImport, OriginAndShiftMoveStamps) {
   const std::string mapping =
       "name: test\norigin_s: 1700000000.25\nstreams:\n  - kind: wheel_ticks\n    file: a.csv\n"
       "    stamp_shift_s: -0.2\n    columns: {" +
-      kStamp + "left: {column: l}, right: {column: l}}\n";
+      stampColumn() + "left: {column: l}, right: {column: l}}\n";
   const auto result = imported(mapping, "t,l\n0.000000001,1\n");
   EXPECT_EQ(result.measurements[0].stamp.time_since_epoch().count(), 1700000000050000001);
   EXPECT_EQ(ImportMapping{}.origin, stampFromSeconds(1.6e9));

@@ -44,7 +44,7 @@ class RangeOffsets {
                                           int anchor) const;
   /// Corrects state and offsets by a range with variance R.
   filters::Correction<1> take(Belief<EskfState>& belief, PoseRow row, int anchor, double R);
-  /// Corrects both by a reading that depends on the state alone.
+  /// Corrects both by a reading of M = 1, 2 or 3 numbers that depends on the state alone.
   template <int M>
   filters::Correction<M> correct(Belief<EskfState>& belief,
                                  const filters::Innovation<EskfState, M>& innovation, const Matrix<M, M>& R,
@@ -97,44 +97,6 @@ filters::Correction<M> judged(const Vector<M>& nu, const Matrix<M, M>& S, filter
   told.nis = nu.dot(factor.solve(nu));
   if (told.nis > gate.threshold) told.verdict = Verdict::Gated;
   return told;
-}
-
-// ---------------------------------------------------------------- templates
-
-template <int M>
-filters::Correction<M> RangeOffsets::correctJoint(Belief<EskfState>& belief,
-                                                  const filters::Innovation<EskfState, M>& innovation,
-                                                  const Rows<M>& H_offset, const Matrix<M, M>& R,
-                                                  filters::Gate gate) {
-  const Eigen::Matrix<double, 15, M> G =
-      belief.covariance * innovation.H.transpose() + cross_ * H_offset.transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, M> G_offset =
-      cross_.transpose() * innovation.H.transpose() + covariance_ * H_offset.transpose();
-  auto told = judged<M>(innovation.nu, innovation.H * G + H_offset * G_offset + R, gate);
-  if (told.verdict != Verdict::Applied) return told;
-  const Eigen::LLT<Matrix<M, M>> S(told.S);
-  const Eigen::Matrix<double, 15, M> K = S.solve(G.transpose()).transpose();
-  const Eigen::Matrix<double, Eigen::Dynamic, M> K_offset = S.solve(G_offset.transpose()).transpose();
-  const Vector<15> d = K * told.nu;
-  belief.mean = plus(belief.mean, d);
-  mean_ += K_offset * told.nu;
-  belief.covariance -= K * G.transpose();
-  cross_ -= K * G_offset.transpose();
-  covariance_ -= K_offset * G_offset.transpose();
-  filters::symmetrise(belief.covariance);
-  filters::symmetrise(covariance_);
-  const Eigen::Matrix3d turned = ins::rightJacobian(d.segment<3>(EskfState::kAttitude));
-  ins::turnAttitude(belief.covariance, turned);
-  cross_.middleRows<3>(EskfState::kAttitude) = (turned * cross_.middleRows<3>(EskfState::kAttitude)).eval();
-  return told;
-}
-
-template <int M>
-filters::Correction<M> RangeOffsets::correct(Belief<EskfState>& belief,
-                                             const filters::Innovation<EskfState, M>& innovation,
-                                             const Matrix<M, M>& R, filters::Gate gate) {
-  if (none()) return correctError<M>(belief, innovation, R, gate);
-  return correctJoint<M>(belief, innovation, Rows<M>::Zero(M, mean_.size()), R, gate);
 }
 
 }  // namespace pos::estimation
